@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * From a folder to a list of views: which camera file, which photograph, which mask, which matrix. No image
+ * is opened here.
+ *
+ *     FOLDER/projections.txt          a P list (CameraFiles.h); or
+ *     FOLDER/NAME_par.txt             Middlebury, if it is the only one
+ *     FOLDER/images/a.jpg             the photographs; or FOLDER/a.jpg
+ *     FOLDER/masks/a.png              the masks: a.jpg itself, a.png, a.jpg.png, or any other image of that
+ * stem FOLDER/NAME_good_silhouette_images.txt   (optional) the names of the views to use
+ *
+ * A photograph or a mask is enough. Masks that lie beside the camera file under the very names that it gives
+ * are taken as photographs here; that they have two values is seen when they are opened.
+ */
+#pragma once
+
+#include "CameraFiles.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace silhouette
+{
+
+struct CaptureOptions
+{
+  /** Views to use, as selectViews reads them ("0,3,5-9", names); empty: all, or the good silhouettes where
+   * listed. */
+  std::string views;
+  /** The file's pixel coordinates put the first pixel's centre at (0.5, 0.5); else at (0, 0). */
+  bool cornerFamily = false;
+};
+
+struct CaptureEntry
+{
+  std::string name;                           ///< of the image, as in the camera file
+  std::filesystem::path photograph;           ///< may be empty where there is a mask
+  std::filesystem::path mask;                 ///< may be empty where there is a photograph
+  Projection projection = Projection::Zero(); ///< integer family; as in the file where its sign is free
+};
+
+struct CaptureDescription
+{
+  std::filesystem::path folder;
+  std::filesystem::path cameraFile;
+  std::string format;                ///< in words: "P list", "Middlebury"
+  bool freeSign = false;             ///< the matrices' signs are free: orient them (ProjectiveCameras.h)
+  std::vector<CaptureEntry> entries; ///< the views used, in the file's order; at least one
+  std::vector<std::string> warnings;
+};
+
+/**
+ * Describe the capture in a folder, or that of a camera file. Throws InvalidInput, naming file, line or view,
+ * and value: no or several camera files; whatever CameraFiles.h throws; a selection that fits no view; and of
+ * the views used: neither photograph nor mask, a mask shared by two, a projection of rank below 3. Warns of
+ * images in images/ that the camera file does not name.
+ */
+CaptureDescription describeCapture(const std::filesystem::path& folderOrCameraFile,
+                                   const CaptureOptions& options = {});
+
+} // namespace silhouette

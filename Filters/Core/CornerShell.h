@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A sparse set of leaf cells with their corners, both in Morton order: what surfaces are made on. Corners are
+ * shared by sorting their lattice codes.
+ */
+#pragma once
+
+#include "Execution.h"
+#include "Lattice.h"
+#include "Octree.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace silhouette
+{
+
+struct CornerShell
+{
+  std::vector<std::uint64_t> cells;                     ///< Morton codes of leaf cells, ascending
+  std::vector<std::uint64_t> corners;                   ///< Morton codes of their corners, ascending
+  std::vector<std::array<std::uint32_t, 8>> cellCorners; ///< for each cell the indices of its corners
+
+  /** Index of a corner, or -1. Cost: a binary search. */
+  std::ptrdiff_t find(std::uint64_t corner) const;
+};
+
+/** The shell of the given cells (ascending, no code twice). Cost: O(n log n). */
+CornerShell makeCornerShell(std::vector<std::uint64_t> cells, Execution& execution);
+
+/** Codes of the octree's last-generation octants of one state. */
+std::vector<std::uint64_t> leafCells(const Octree& octree, OctantState state);
+
+} // namespace silhouette

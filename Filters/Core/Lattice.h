@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The integer lattice that everything is named by. A root cube of a given depth N has 2^N leaf octants a side
+ * and 2^N + 1 lattice points a side. Corners, edges and octants are named by integer coordinates, and every
+ * position is computed from these alone, so that any two parts of the work agree to the last bit.
+ */
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <cstdint>
+
+namespace silhouette
+{
+
+constexpr int MaximumDepth = 16;
+
+/** Integer coordinates of a lattice point, or of an octant within its generation. */
+struct LatticePoint
+{
+  std::int32_t i = 0;
+  std::int32_t j = 0;
+  std::int32_t k = 0;
+
+  bool operator==(const LatticePoint& o) const { return i == o.i && j == o.j && k == o.k; }
+  LatticePoint operator+(const LatticePoint& o) const { return { i + o.i, j + o.j, k + o.k }; }
+};
+
+/** Corner or child number c in 0..7: bit 0 is x, bit 1 is y, bit 2 is z. */
+inline LatticePoint cornerOffset(int c)
+{
+  return { c & 1, (c >> 1) & 1, (c >> 2) & 1 };
+}
+
+/** Spread the lower 21 bits of x so that two zero bits follow each. */
+inline std::uint64_t spreadBits(std::uint64_t x)
+{
+  x &= 0x1fffff;
+  x = (x | x << 32) & 0x1f00000000ffffULL;
+  x = (x | x << 16) & 0x1f0000ff0000ffULL;
+  x = (x | x << 8) & 0x100f00f00f00f00fULL;
+  x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
+  x = (x | x << 2) & 0x1249249249249249ULL;
+  return x;
+}
+
+inline std::int32_t gatherBits(std::uint64_t x)
+{
+  x &= 0x1249249249249249ULL;
+  x = (x | x >> 2) & 0x10c30c30c30c30c3ULL;
+  x = (x | x >> 4) & 0x100f00f00f00f00fULL;
+  x = (x | x >> 8) & 0x1f0000ff0000ffULL;
+  x = (x | x >> 16) & 0x1f00000000ffffULL;
+  x = (x | x >> 32) & 0x1fffffULL;
+  return std::int32_t(x);
+}
+
+/** Morton code of non-negative coordinates below 2^21: x in bits 0, 3, ..., y in 1, 4, ..., z in 2, 5, ... */
+inline std::uint64_t mortonCode(const LatticePoint& p)
+{
+  return spreadBits(std::uint64_t(p.i)) | spreadBits(std::uint64_t(p.j)) << 1 | spreadBits(std::uint64_t(p.k)) << 2;
+}
+
+inline LatticePoint fromMorton(std::uint64_t code)
+{
+  return { gatherBits(code), gatherBits(code >> 1), gatherBits(code >> 2) };
+}
+
+/** An axis-parallel cube of the world, the octree's root. */
+struct RootCube
+{
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< the corner of least coordinates
+  double edge = 0.0;                                ///< edge length, > 0
+};
+
+/** A root cube subdivided `depth` times. */
+struct Lattice
+{
+  RootCube root;
+  int depth = 0; ///< number of subdivisions, 1 to MaximumDepth
+
+  std::int32_t cells() const { return std::int32_t(1) << this->depth; } ///< leaf octants a side
+  double leafEdge() const { return std::ldexp(this->root.edge, -this->depth); }
+  /** The one formula for a coordinate: lattice coordinate `t` (not necessarily whole) along `axis`. */
+  double coordinate(int axis, double t) const { return this->root.origin[axis] + this->leafEdge() * t; }
+  Eigen::Vector3d position(const LatticePoint& p) const
+  {
+    return { this->coordinate(0, p.i), this->coordinate(1, p.j), this->coordinate(2, p.k) };
+  }
+  bool onBorder(const LatticePoint& p) const
+  {
+    const std::int32_t n = this->cells();
+    return p.i <= 0 || p.j <= 0 || p.k <= 0 || p.i >= n || p.j >= n || p.k >= n;
+  }
+  bool hasCell(const LatticePoint& p) const
+  {
+    const std::int32_t n = this->cells();
+    return p.i >= 0 && p.j >= 0 && p.k >= 0 && p.i < n && p.j < n && p.k < n;
+  }
+};
+
+} // namespace silhouette

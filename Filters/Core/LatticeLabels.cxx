@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LatticeLabels.h"
+
+#include "MarchingCubesTable.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <deque>
+
+namespace silhouette
+{
+namespace
+{
+
+constexpr double OnEdgeTolerance = 1e-3;
+constexpr std::uint8_t Unknown = 2;
+
+/** The lattice edge that `p` lies on; false where it lies on none. */
+bool locateCrossing(const Eigen::Vector3d& p, const Lattice& lattice, LatticeCrossing& crossing)
+{
+  const Eigen::Array3d g = (p - lattice.root.origin).array() / lattice.leafEdge();
+  if (!g.isFinite().all() || (g < -0.5).any() || (g > lattice.cells() + 0.5).any())
+  {
+    return false;
+  }
+  const Eigen::Array3d off = (g - g.round()).abs();
+  Eigen::Index axis = 0;
+  off.maxCoeff(&axis);
+  for (int other = 0; other < 3; ++other)
+  {
+    if (other != axis && off[other] > OnEdgeTolerance)
+    {
+      return false;
+    }
+  }
+  LatticePoint lower{ int(std::lround(g[0])), int(std::lround(g[1])), int(std::lround(g[2])) };
+  const int whole = std::clamp(int(std::floor(g[axis])), 0, lattice.cells() - 1);
+  (axis == 0 ? lower.i : axis == 1 ? lower.j : lower.k) = whole;
+  crossing.edge = edgeKey(mortonCode(lower), int(axis));
+  crossing.fraction = std::clamp(g[axis] - whole, 0.0, 1.0);
+  return true;
+}
+
+int axisOf(std::uint64_t edge)
+{
+  return int(edge & 3);
+}
+
+} // namespace
+
+std::ptrdiff_t SurfaceCrossings::find(std::uint64_t edge) const
+{
+  const auto at = std::lower_bound(this->crossings.begin(), this->crossings.end(), edge,
+    [](const LatticeCrossing& crossing, std::uint64_t key) { return crossing.edge < key; });
+  return at != this->crossings.end() && at->edge == edge ? at - this->crossings.begin() : -1;
+}
+
+SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice)
+{
+  // Outward normals, not normalised: only the sign along the edge counts.
+  std::vector<Eigen::Vector3d> normals(surface.points.size(), Eigen::Vector3d::Zero());
+  for (const auto& t : surface.triangles)
+  {
+    const auto& a = surface.points[t[0]];
+    const Eigen::Vector3d normal = (surface.points[t[1]] - a).cross(surface.points[t[2]] - a);
+    for (const auto corner : t)
+    {
+      normals[corner] += normal;
+    }
+  }
+  SurfaceCrossings found;
+  std::vector<std::pair<LatticeCrossing, std::uint8_t>> all;
+  for (std::size_t i = 0; i < surface.points.size(); ++i)
+  {
+    LatticeCrossing crossing;
+    if (!locateCrossing(surface.points[i], lattice, crossing))
+    {
+      ++found.ignoredPoints;
+      continue;
+    }
+    all.emplace_back(crossing, std::uint8_t(normals[i][axisOf(crossing.edge)] > 0.0));
+  }
+  // Several points may lie on one edge of a strange surface: the first by position counts.
+  std::sort(all.begin(), all.end(),
+    [](const auto& a, const auto& b)
+    {
+      return a.first.edge != b.first.edge ? a.first.edge < b.first.edge
+        : a.first.fraction != b.first.fraction ? a.first.fraction < b.first.fraction
+                                               : a.second < b.second;
+    });
+  for (const auto& one : all)
+  {
+    if (found.crossings.empty() || found.crossings.back().edge != one.first.edge)
+    {
+      found.crossings.push_back(one.first);
+      found.lowerInside.push_back(one.second);
+    }
+  }
+  return found;
+}
+
+LatticeLabels::LatticeLabels(const Octree& octree, const PreparedViews& views, Execution& execution)
+  : TheOctree(&octree)
+  , Shell(makeCornerShell(leafCells(octree, OctantState::Intersection), execution))
+  , Inside(Shell.corners.size())
+  , Votes(Shell.corners.size())
+{
+  const LatticeViews latticeViews(views, octree.lattice);
+  const int required = views.size() - octree.backgroundVotes;
+  execution.forRanges(this->Shell.corners.size(), 1024,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        const LatticePoint p = fromMorton(this->Shell.corners[c]);
+        this->Votes[c] = std::uint16_t(latticeViews.insideVotes(p));
+        this->Inside[c] = this->Votes[c] >= required && !octree.lattice.onBorder(p);
+      }
+    });
+}
+
+LatticeLabels::LatticeLabels(const Octree& octree, const SurfaceCrossings& crossings, Execution& execution)
+  : TheOctree(&octree)
+  , Shell(makeCornerShell(leafCells(octree, OctantState::Intersection), execution))
+  , Inside(Shell.corners.size(), Unknown)
+  , Votes(Shell.corners.size(), 0)
+{
+  this->fromOctree(this->Inside);
+  const auto label = [&](std::ptrdiff_t corner, std::uint8_t value)
+  {
+    if (corner >= 0 && this->Inside[corner] == Unknown)
+    {
+      this->Inside[corner] = value;
+    }
+  };
+  const auto upperEnd = [](std::uint64_t lower, int axis)
+  { return mortonCode(fromMorton(lower) + LatticePoint{ axis == 0, axis == 1, axis == 2 }); };
+  for (std::size_t i = 0; i < crossings.crossings.size(); ++i)
+  {
+    const std::uint64_t edge = crossings.crossings[i].edge;
+    label(this->Shell.find(edge >> 2), crossings.lowerInside[i]);
+    label(this->Shell.find(upperEnd(edge >> 2, axisOf(edge))), !crossings.lowerInside[i]);
+  }
+  // Spread along the edges that the surface does not cross, breadth first in lattice order.
+  std::vector<std::vector<std::uint32_t>> neighbours(this->Shell.corners.size());
+  for (const auto& corners : this->Shell.cellCorners)
+  {
+    for (int e = 0; e < 12; ++e)
+    {
+      const std::uint32_t a = corners[edgeCorners[e][0]], b = corners[edgeCorners[e][1]];
+      if ((this->Inside[a] == Unknown || this->Inside[b] == Unknown) &&
+        crossings.find(edgeKey(this->Shell.corners[a], edgeAxis(e))) < 0)
+      {
+        neighbours[a].push_back(b);
+        neighbours[b].push_back(a);
+      }
+    }
+  }
+  std::deque<std::uint32_t> front;
+  for (std::uint32_t c = 0; c < this->Inside.size(); ++c)
+  {
+    if (this->Inside[c] != Unknown)
+    {
+      front.push_back(c);
+    }
+  }
+  for (; !front.empty(); front.pop_front())
+  {
+    for (const std::uint32_t next : neighbours[front.front()])
+    {
+      if (this->Inside[next] == Unknown)
+      {
+        this->Inside[next] = this->Inside[front.front()];
+        front.push_back(next);
+      }
+    }
+  }
+  std::replace(this->Inside.begin(), this->Inside.end(), Unknown, std::uint8_t(0));
+}
+
+void LatticeLabels::fromOctree(std::vector<std::uint8_t>& known)
+{
+  const Lattice& lattice = this->TheOctree->lattice;
+  for (std::size_t c = 0; c < known.size(); ++c)
+  {
+    const LatticePoint p = fromMorton(this->Shell.corners[c]);
+    if (lattice.onBorder(p))
+    {
+      known[c] = 0;
+      continue;
+    }
+    bool inside = false, background = false;
+    for (int n = 0; n < 8; ++n)
+    {
+      const LatticePoint o = cornerOffset(n);
+      const auto state = this->TheOctree->locate({ p.i - o.i, p.j - o.j, p.k - o.k }).state;
+      inside |= state == OctantState::Inside;
+      background |= state == OctantState::Background;
+    }
+    known[c] = background ? 0 : inside ? 1 : Unknown;
+  }
+}
+
+void LatticeLabels::fillOctant(int generation, std::size_t index)
+{
+  const std::pair<int, std::size_t> octant(generation, index);
+  this->Filled.insert(std::lower_bound(this->Filled.begin(), this->Filled.end(), octant), octant);
+}
+
+bool LatticeLabels::insideAt(const LatticePoint& p) const
+{
+  if (this->TheOctree->lattice.onBorder(p))
+  {
+    return false;
+  }
+  const std::ptrdiff_t corner = this->Shell.find(mortonCode(p));
+  if (corner >= 0)
+  {
+    return this->Inside[corner] != 0;
+  }
+  // No intersection octant of the last generation touches it, so that every octant around it tells.
+  const auto location = this->TheOctree->locate(p);
+  return location.state == OctantState::Inside ||
+    (!this->Filled.empty() &&
+      std::binary_search(
+        this->Filled.begin(), this->Filled.end(), std::make_pair(location.generation, location.index)));
+}
+
+int LatticeLabels::cellsAround(const LatticePoint& p, std::array<std::uint32_t, 8>& cells) const
+{
+  int count = 0;
+  for (int n = 0; n < 8; ++n)
+  {
+    const LatticePoint o = cornerOffset(n);
+    const LatticePoint cell{ p.i - o.i, p.j - o.j, p.k - o.k };
+    if (!this->TheOctree->lattice.hasCell(cell))
+    {
+      continue;
+    }
+    const auto at = std::lower_bound(this->Shell.cells.begin(), this->Shell.cells.end(), mortonCode(cell));
+    if (at != this->Shell.cells.end() && *at == mortonCode(cell))
+    {
+      cells[count++] = std::uint32_t(at - this->Shell.cells.begin());
+    }
+  }
+  return count;
+}
+
+} // namespace silhouette

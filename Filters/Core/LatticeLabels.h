@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Labels of lattice corners: kept for the corners of the octree's last-generation intersection octants, and read
+ * off the octree everywhere else.
+ */
+#pragma once
+
+#include "CornerShell.h"
+#include "Mesh.h"
+#include "PreparedViews.h"
+
+#include <vector>
+
+namespace silhouette
+{
+
+/** A surface point's place on the lattice. */
+struct LatticeCrossing
+{
+  std::uint64_t edge = 0; ///< 4 times the Morton code of the edge's lower end, plus its axis
+  double fraction = 0.0;  ///< from the lower end, in (0, 1)
+};
+
+/** Name of the lattice edge that starts at `lower` along `axis`. */
+inline std::uint64_t edgeKey(std::uint64_t lower, int axis)
+{
+  return lower << 2 | std::uint64_t(axis);
+}
+
+/** The crossings of a surface whose points lie on lattice edges, ascending by edge. */
+struct SurfaceCrossings
+{
+  std::vector<LatticeCrossing> crossings;
+  std::vector<std::uint8_t> lowerInside; ///< for each, 1 where the edge's lower end is the inside one
+  std::uint64_t ignoredPoints = 0;       ///< points that lie on no lattice edge
+
+  /** Index of an edge's crossing, or -1. */
+  std::ptrdiff_t find(std::uint64_t edge) const;
+};
+
+/**
+ * Find the points' lattice edges (to within 1e-3 of an edge), and from the triangles' normals which end is inside.
+ */
+SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice);
+
+class LatticeLabels
+{
+public:
+  /** Labels by votes: inside iff at most the octree's k views say background, not on the root cube's border. */
+  LatticeLabels(const Octree& octree, const PreparedViews& views, Execution& execution);
+  /**
+   * Labels without views: corners of inside octants are inside, those of background octants outside; the rest by
+   * the surface's crossings, and where an edge has none its ends are alike. What stays unknown is outside.
+   */
+  LatticeLabels(const Octree& octree, const SurfaceCrossings& crossings, Execution& execution);
+
+  const Octree& octree() const { return *this->TheOctree; }
+  const CornerShell& shell() const { return this->Shell; }
+  const std::vector<std::uint8_t>& inside() const { return this->Inside; }
+  /** Inside votes of the shell's corners; all 0 where there were no views. */
+  const std::vector<std::uint16_t>& votes() const { return this->Votes; }
+
+  /** Label a corner of the shell inside. */
+  void setInside(std::size_t corner) { this->Inside[corner] = 1; }
+  /** Label a background octant's corners inside, as part of a filled cavity. */
+  void fillOctant(int generation, std::size_t index);
+
+  /** Label of any lattice point. */
+  bool insideAt(const LatticePoint& p) const;
+  /** Numbers of the intersection cells around a lattice point, at most eight; returns how many. */
+  int cellsAround(const LatticePoint& p, std::array<std::uint32_t, 8>& cells) const;
+
+private:
+  void fromOctree(std::vector<std::uint8_t>& known);
+
+  const Octree* TheOctree;
+  CornerShell Shell;
+  std::vector<std::uint8_t> Inside;
+  std::vector<std::uint16_t> Votes;
+  std::vector<std::pair<int, std::size_t>> Filled; ///< sorted
+};
+
+} // namespace silhouette

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LatticeRegions.h"
+
+#include "MarchingCubesTable.h"
+
+#include <algorithm>
+#include <set>
+
+namespace silhouette
+{
+namespace
+{
+
+LatticePoint lowestCell(const Octree& octree, int generation, std::size_t index)
+{
+  const int shift = octree.lattice.depth - generation;
+  const LatticePoint p = fromMorton(octree.generations[generation].code[index]);
+  return { p.i << shift, p.j << shift, p.k << shift };
+}
+
+/** Call `work(generation, index)` for every leaf octant with one of two states. */
+template <typename Work>
+void forOctants(const Octree& octree, OctantState state, const Work& work)
+{
+  for (int g = octree.treeGeneration; g <= octree.lattice.depth; ++g)
+  {
+    const auto& states = octree.generations[g].state;
+    for (std::size_t i = 0; i < states.size(); ++i)
+    {
+      if (states[i] == state)
+      {
+        work(g, i);
+      }
+    }
+  }
+}
+
+LatticeRegions emptyRegions(const Octree& octree, std::size_t corners)
+{
+  LatticeRegions regions;
+  std::size_t count = corners;
+  for (const auto& generation : octree.generations)
+  {
+    regions.firstOctant.push_back(count);
+    count += generation.size();
+  }
+  regions.beyond = std::uint32_t(count);
+  regions.sets = UnionFind(count + 1);
+  return regions;
+}
+
+/**
+ * Join octants of one state across their faces. Every pair of neighbours is met from its smaller octant. With
+ * `beyond`, octants at the root cube's border are joined to the world beyond.
+ */
+void joinOctants(const Octree& octree, OctantState state, bool beyond, LatticeRegions& regions)
+{
+  const auto node = [&](int g, std::size_t i) { return std::uint32_t(regions.firstOctant[g] + i); };
+  forOctants(octree, state,
+    [&](int g, std::size_t i)
+    {
+      const LatticePoint p = lowestCell(octree, g, i);
+      const std::int32_t size = std::int32_t(1) << (octree.lattice.depth - g);
+      const LatticePoint across[6] = { { p.i - 1, p.j, p.k }, { p.i + size, p.j, p.k }, { p.i, p.j - 1, p.k },
+        { p.i, p.j + size, p.k }, { p.i, p.j, p.k - 1 }, { p.i, p.j, p.k + size } };
+      for (const auto& cell : across)
+      {
+        if (!octree.lattice.hasCell(cell))
+        {
+          if (beyond)
+          {
+            regions.sets.unite(node(g, i), regions.beyond);
+          }
+          continue;
+        }
+        const auto other = octree.locate(cell);
+        if (other.generation >= 0 && other.generation <= g && other.state == state)
+        {
+          regions.sets.unite(node(g, i), node(other.generation, other.index));
+        }
+      }
+    });
+}
+
+/** Join a shell corner with the octants of one state that touch it. */
+void joinCornerToOctants(
+  const Octree& octree, const LatticePoint& p, std::uint32_t corner, OctantState state, LatticeRegions& regions)
+{
+  for (int n = 0; n < 8; ++n)
+  {
+    const LatticePoint o = cornerOffset(n);
+    const auto location = octree.locate({ p.i - o.i, p.j - o.j, p.k - o.k });
+    if (location.generation >= 0 && location.state == state)
+    {
+      regions.sets.unite(corner, std::uint32_t(regions.firstOctant[location.generation] + location.index));
+    }
+  }
+}
+
+/** The diagonals of a cell's faces, as corner pairs. */
+constexpr std::uint8_t FaceDiagonals[12][2] = { { 0, 6 }, { 2, 4 }, { 1, 7 }, { 3, 5 }, { 0, 5 }, { 1, 4 },
+  { 2, 7 }, { 3, 6 }, { 0, 3 }, { 1, 2 }, { 4, 7 }, { 5, 6 } };
+
+void joinCorners(const LatticeLabels& labels, bool inside, LatticeRegions& regions)
+{
+  const auto& label = labels.inside();
+  const auto join = [&](std::uint32_t a, std::uint32_t b)
+  {
+    if ((label[a] != 0) == inside && (label[b] != 0) == inside)
+    {
+      regions.sets.unite(a, b);
+    }
+  };
+  for (const auto& corners : labels.shell().cellCorners)
+  {
+    for (const auto& edge : edgeCorners)
+    {
+      join(corners[edge[0]], corners[edge[1]]);
+    }
+    for (int d = 0; inside && d < 12; ++d)
+    {
+      join(corners[FaceDiagonals[d][0]], corners[FaceDiagonals[d][1]]);
+    }
+  }
+}
+
+} // namespace
+
+LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
+{
+  const Octree& octree = labels.octree();
+  const auto& shell = labels.shell();
+  const OctantState state = inside ? OctantState::Inside : OctantState::Background;
+  LatticeRegions regions = emptyRegions(octree, shell.corners.size());
+  joinOctants(octree, state, !inside, regions);
+  joinCorners(labels, inside, regions);
+  for (std::size_t c = 0; c < shell.corners.size(); ++c)
+  {
+    const LatticePoint p = fromMorton(shell.corners[c]);
+    if (!inside && octree.lattice.onBorder(p))
+    {
+      regions.sets.unite(std::uint32_t(c), regions.beyond);
+    }
+    if ((labels.inside()[c] != 0) == inside)
+    {
+      joinCornerToOctants(octree, p, std::uint32_t(c), state, regions);
+    }
+  }
+  return regions;
+}
+
+std::uint64_t fillCavities(LatticeLabels& labels)
+{
+  const Octree& octree = labels.octree();
+  LatticeRegions regions = connectRegions(labels, false);
+  const std::uint32_t beyond = regions.sets.find(regions.beyond);
+  std::set<std::uint32_t> cavities;
+  for (std::size_t c = 0; c < labels.inside().size(); ++c)
+  {
+    const std::uint32_t region = regions.sets.find(std::uint32_t(c));
+    if (!labels.inside()[c] && region != beyond)
+    {
+      cavities.insert(region);
+    }
+  }
+  if (cavities.empty())
+  {
+    return 0;
+  }
+  for (std::size_t c = 0; c < labels.inside().size(); ++c)
+  {
+    if (!labels.inside()[c] && cavities.count(regions.sets.find(std::uint32_t(c))))
+    {
+      labels.setInside(c);
+    }
+  }
+  forOctants(octree, OctantState::Background,
+    [&](int g, std::size_t i)
+    {
+      if (cavities.count(regions.sets.find(std::uint32_t(regions.firstOctant[g] + i))))
+      {
+        labels.fillOctant(g, i);
+      }
+    });
+  return cavities.size();
+}
+
+std::uint64_t countSurvivorComponents(const Octree& octree, Execution& execution)
+{
+  const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
+  LatticeRegions regions = emptyRegions(octree, shell.corners.size());
+  joinOctants(octree, OctantState::Inside, false, regions);
+  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
+  {
+    for (const std::uint32_t corner : shell.cellCorners[cell])
+    {
+      regions.sets.unite(shell.cellCorners[cell][0], corner);
+    }
+  }
+  std::set<std::uint32_t> components;
+  for (std::size_t c = 0; c < shell.corners.size(); ++c)
+  {
+    joinCornerToOctants(octree, fromMorton(shell.corners[c]), std::uint32_t(c), OctantState::Inside, regions);
+  }
+  for (std::size_t c = 0; c < shell.corners.size(); ++c)
+  {
+    components.insert(regions.sets.find(std::uint32_t(c)));
+  }
+  forOctants(octree, OctantState::Inside,
+    [&](int g, std::size_t i)
+    { components.insert(regions.sets.find(std::uint32_t(regions.firstOctant[g] + i))); });
+  return components.size();
+}
+
+} // namespace silhouette

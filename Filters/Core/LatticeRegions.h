@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Connected regions of labelled lattice corners, across the whole octree: inside corners are joined as our
+ * marching-cubes table joins them (18-neighbourhood), outside ones through lattice edges, and octants that are
+ * wholly inside or background join what they touch.
+ */
+#pragma once
+
+#include "LatticeLabels.h"
+#include "UnionFind.h"
+
+namespace silhouette
+{
+
+/** Sets over the shell's corners, then all octants of the octree, then the world beyond the root cube. */
+struct LatticeRegions
+{
+  UnionFind sets;
+  std::vector<std::size_t> firstOctant; ///< number of the first octant of each generation
+  std::uint32_t beyond = 0;             ///< the world beyond the root cube
+};
+
+/** Regions of the corners with the given label. Numbers of corners and octants with the other label are alone. */
+LatticeRegions connectRegions(const LatticeLabels& labels, bool inside);
+
+/** Label the cavities, outside regions that do not reach the world beyond, inside; returns their number. */
+std::uint64_t fillCavities(LatticeLabels& labels);
+
+/** Number of components of the last generation's and all inside octants in the 26-neighbourhood. */
+std::uint64_t countSurvivorComponents(const Octree& octree, Execution& execution);
+
+} // namespace silhouette

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The local hull surfacer (Documentation/method.md, section 4): from an imperfect marching-cubes surface and the
+ * octree, a surface that is closed, oriented outwards, edge- and vertex-manifold, free of self-intersections,
+ * that crosses or encloses every last-generation octant that survived the carving, and that has no more
+ * components than the survivors (26-neighbourhood).
+ */
+#pragma once
+
+#include "LocalHulls.h"
+#include "Mesh.h"
+#include "Octree.h"
+#include "PreparedViews.h"
+
+namespace silhouette
+{
+
+struct LocalHullOptions
+{
+  bool fillCavities = true;   ///< label cavities inside; without it a cavity's wall is one more component
+  double coverOffset = 0.03;  ///< in octants, 0.01 to 0.99: how far the surface stands off a covering corner
+  bool singlePrecision = false; ///< round points to float, and promise it for these
+  LocalHullsOptions hulls;
+};
+
+/** The surface and what was done for it. */
+struct LocalHullSurface
+{
+  Mesh mesh;
+  std::uint64_t survivors = 0;       ///< last-generation octants that survived, inside ones too
+  std::uint64_t coveredOctants = 0;  ///< survivors that had no inside corner
+  std::uint64_t coveringCorners = 0; ///< corners labelled inside to cover or to join
+  std::uint64_t cavitiesFilled = 0;  ///< cavities that were labelled inside
+  std::uint64_t ignoredPoints = 0;   ///< points of the imperfect surface that lie on no lattice edge
+  std::uint64_t movedToMiddle = 0;   ///< points moved to the middle of their edge against a self-intersection
+};
+
+/**
+ * Make `imperfect` whole. With views, labels come from the octree and the votes, crossings from the surface where it has
+ * them and else from the views; without, both come from octree and surface. Throws InvalidInput where the
+ * views are not the octree's or an option is out of range, Cancelled. Cost: linear in the octree and the surface.
+ */
+LocalHullSurface localHullSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
+  const LocalHullOptions& options, Execution& execution);
+
+/** The local hulls themselves, classified on the imperfect surface. */
+std::vector<LocalHull> classifyLocalHulls(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
+  const LocalHullOptions& options, Execution& execution);
+
+} // namespace silhouette

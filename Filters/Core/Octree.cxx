@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Octree.h"
+
+#include <algorithm>
+
+namespace silhouette
+{
+
+std::size_t Octree::count(OctantState state, int generation) const
+{
+  if (generation < 0 || std::size_t(generation) >= this->generations.size())
+  {
+    return 0;
+  }
+  const auto& states = this->generations[generation].state;
+  return std::size_t(std::count(states.begin(), states.end(), state));
+}
+
+Octree::Location Octree::locate(const LatticePoint& cell) const
+{
+  Location location;
+  if (!this->lattice.hasCell(cell) || this->generations.empty())
+  {
+    return location;
+  }
+  const std::uint64_t leaf = mortonCode(cell);
+  const int depth = this->lattice.depth;
+  const auto& roots = this->generations[this->treeGeneration];
+  const std::uint64_t tree = leaf >> 3 * (depth - this->treeGeneration);
+  const auto found = std::lower_bound(roots.code.begin(), roots.code.end(), tree);
+  if (found == roots.code.end() || *found != tree)
+  {
+    return location;
+  }
+  std::size_t index = std::size_t(found - roots.code.begin());
+  for (int g = this->treeGeneration;; ++g)
+  {
+    const auto& generation = this->generations[g];
+    if (g == depth || generation.state[index] != OctantState::Intersection)
+    {
+      return { g, index, generation.state[index] };
+    }
+    const int child = int(leaf >> 3 * (depth - g - 1) & 7);
+    index = std::size_t(generation.childBlock[index]) * 8 + child;
+  }
+}
+
+} // namespace silhouette

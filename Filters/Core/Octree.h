@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The octree of the silhouettes (METHOD: section 1 of Documentation/method.md) as a linear octree: a sorted
+ * array of octants for each generation. No pointers: the children of the r-th intersection octant of a
+ * generation are the octants 8 r to 8 r + 7 of the next one.
+ */
+#pragma once
+
+#include "Lattice.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace silhouette
+{
+
+enum class OctantState : std::uint8_t
+{
+  Background = 0,   ///< carved
+  Intersection = 1, ///< subdivided; in the last generation: holds the surface
+  Inside = 2        ///< wholly object
+};
+
+/** What a view says beyond the sides of its image. */
+enum class OutsidePolicy : std::uint8_t
+{
+  Border = 0,    ///< abstains beyond a side whose outermost row or column holds an object pixel, else background
+  Unknown = 1,   ///< abstains
+  Background = 2 ///< background
+};
+
+/** The octants of one generation, in Morton order. */
+struct Generation
+{
+  std::vector<std::uint64_t> code;       ///< Morton code of the octant's coordinates within its generation
+  std::vector<OctantState> state;        ///< same length
+  std::vector<std::uint32_t> childBlock; ///< rank of the octant among the intersection octants before it
+
+  std::size_t size() const { return this->code.size(); }
+};
+
+/** Exact counts of what the carving did. The octants of the coarse carve of automatic bounds are not in it. */
+struct CarveStatistics
+{
+  std::uint64_t octantsTested = 0;
+  std::uint64_t viewTests = 0;              ///< (octant, view) pairs that were classified
+  std::vector<double> carvedByView;         ///< for each view the share of the root cube that it carved
+};
+
+struct Octree
+{
+  Lattice lattice;
+  int treeGeneration = 0;  ///< generation of the roots: 2^treeGeneration trees a side
+  int viewCount = 0;       ///< m
+  int backgroundVotes = 0; ///< k: an octant is background iff more than k views say so
+  OutsidePolicy outside = OutsidePolicy::Border;
+  std::uint64_t fingerprint = 0;       ///< of the views and policies it was carved from
+  std::vector<Generation> generations; ///< index is the generation; empty below treeGeneration
+  CarveStatistics statistics;
+
+  const Generation& last() const { return this->generations.back(); }
+  std::size_t count(OctantState state, int generation) const;
+  /** The smallest octant that holds leaf cell `cell`: its generation, or -1 where no tree of it was carved. */
+  struct Location
+  {
+    int generation = -1;
+    std::size_t index = 0;
+    OctantState state = OctantState::Background;
+  };
+  Location locate(const LatticePoint& cell) const;
+};
+
+} // namespace silhouette

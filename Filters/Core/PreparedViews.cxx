@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PreparedViews.h"
+
+#include <Eigen/LU>
+
+#include <cstring>
+
+namespace silhouette
+{
+namespace
+{
+
+/** 64-bit FNV-1a, eight bytes at a time where there are eight. */
+class Fingerprinter
+{
+public:
+  void add(const void* data, std::size_t bytes)
+  {
+    const auto* at = static_cast<const unsigned char*>(data);
+    for (; bytes >= 8; bytes -= 8, at += 8)
+    {
+      std::uint64_t word = 0;
+      std::memcpy(&word, at, 8);
+      this->mix(word);
+    }
+    for (; bytes > 0; --bytes, ++at)
+    {
+      this->mix(*at);
+    }
+  }
+  std::uint64_t value() const { return this->Hash; }
+
+private:
+  void mix(std::uint64_t word)
+  {
+    this->Hash = (this->Hash ^ word) * 0x100000001b3ULL;
+    this->Hash ^= this->Hash >> 29; // FNV on words leaves the low bits ignorant of the high ones
+  }
+  std::uint64_t Hash = 0xcbf29ce484222325ULL;
+};
+
+std::string describe(const View& view, std::size_t index)
+{
+  return "view " + std::to_string(index) + (view.name.empty() ? std::string() : " (" + view.name + ")");
+}
+
+void check(const View& view, std::size_t index)
+{
+  const auto& image = view.silhouette;
+  if (image.width < 1 || image.height < 1)
+  {
+    throw InvalidInput(describe(view, index) + ": the silhouette is empty, " + std::to_string(image.width) + " x " +
+      std::to_string(image.height) + " pixels");
+  }
+  if (image.pixels.size() != std::size_t(image.width) * image.height)
+  {
+    throw InvalidInput(describe(view, index) + ": " + std::to_string(image.pixels.size()) + " pixel values for " +
+      std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels");
+  }
+  if (std::size_t(image.width) * image.height > std::size_t(0x7fffffff))
+  {
+    throw InvalidInput(describe(view, index) + ": more than 2^31 - 1 pixels");
+  }
+  if (!view.projection.allFinite())
+  {
+    throw InvalidInput(describe(view, index) + ": the projection matrix holds a value that is not finite");
+  }
+  // Scale the rows first: they differ by the focal length in pixels.
+  Projection scaled = view.projection;
+  for (int row = 0; row < 3; ++row)
+  {
+    const double norm = scaled.row(row).norm();
+    if (norm > 0.0)
+    {
+      scaled.row(row) /= norm;
+    }
+  }
+  Eigen::FullPivLU<Eigen::Matrix<double, 3, 4>> decomposition(scaled);
+  decomposition.setThreshold(1e-11);
+  if (decomposition.rank() < 3)
+  {
+    throw InvalidInput(describe(view, index) + ": the projection matrix has rank " +
+      std::to_string(decomposition.rank()) + ", 3 is needed");
+  }
+}
+
+void sumAreas(const BinaryImage& image, PreparedView& out)
+{
+  const std::size_t stride = std::size_t(image.width) + 1;
+  out.areaSums.assign(stride * (image.height + 1), 0);
+  out.objectBox = { image.width, -1, image.height, -1 };
+  for (int row = 0; row < image.height; ++row)
+  {
+    std::int32_t inRow = 0;
+    const std::int32_t* above = &out.areaSums[std::size_t(row) * stride];
+    std::int32_t* sums = &out.areaSums[std::size_t(row + 1) * stride];
+    const std::uint8_t* pixels = &out.object[std::size_t(row) * image.width];
+    for (int column = 0; column < image.width; ++column)
+    {
+      if (pixels[column])
+      {
+        ++inRow;
+        out.objectBox[0] = std::min(out.objectBox[0], column);
+        out.objectBox[1] = std::max(out.objectBox[1], column);
+      }
+      sums[column + 1] = above[column + 1] + inRow;
+    }
+    if (inRow > 0)
+    {
+      out.objectBox[2] = std::min(out.objectBox[2], row);
+      out.objectBox[3] = row;
+    }
+  }
+}
+
+PreparedView prepare(const View& view, OutsidePolicy outside)
+{
+  const auto& image = view.silhouette;
+  PreparedView out;
+  out.name = view.name;
+  out.projection = view.projection;
+  out.width = image.width;
+  out.height = image.height;
+  out.object.resize(image.pixels.size());
+  std::transform(image.pixels.begin(), image.pixels.end(), out.object.begin(),
+    [](std::uint8_t value) { return std::uint8_t(value != 0); });
+  sumAreas(image, out);
+  const auto& box = out.objectBox;
+  const bool any = box[1] >= 0;
+  const std::array<bool, 4> touched = { any && box[0] == 0, any && box[1] == out.width - 1, any && box[2] == 0,
+    any && box[3] == out.height - 1 };
+  for (int side = 0; side < 4; ++side)
+  {
+    out.open[side] = outside == OutsidePolicy::Unknown || (outside == OutsidePolicy::Border && touched[side]);
+  }
+  return out;
+}
+
+} // namespace
+
+Vote PreparedView::pixelVote(int column, int row) const
+{
+  if (column >= 0 && row >= 0 && column < this->width && row < this->height)
+  {
+    return this->object[std::size_t(row) * this->width + column] ? Vote::Object : Vote::Background;
+  }
+  const bool abstains = (column < 0 && this->open[0]) || (column >= this->width && this->open[1]) ||
+    (row < 0 && this->open[2]) || (row >= this->height && this->open[3]);
+  return abstains ? Vote::Abstain : Vote::Background;
+}
+
+PixelContent PreparedView::content(int firstColumn, int lastColumn, int firstRow, int lastRow) const
+{
+  PixelContent content;
+  if (firstColumn > lastColumn || firstRow > lastRow)
+  {
+    return content;
+  }
+  const int c0 = std::max(firstColumn, 0), c1 = std::min(lastColumn, this->width - 1);
+  const int r0 = std::max(firstRow, 0), r1 = std::min(lastRow, this->height - 1);
+  if (c0 <= c1 && r0 <= r1)
+  {
+    const std::int64_t objects = this->objectPixels(c0, c1 + 1, r0, r1 + 1);
+    content.object = objects > 0;
+    content.background = objects < std::int64_t(c1 - c0 + 1) * (r1 - r0 + 1);
+  }
+  // The nine regions of the plane: outside the image each is one answer.
+  const bool columns[3] = { firstColumn < 0, c0 <= c1, lastColumn >= this->width };
+  const bool rows[3] = { firstRow < 0, r0 <= r1, lastRow >= this->height };
+  if (!(columns[0] || columns[2] || rows[0] || rows[2]))
+  {
+    return content;
+  }
+  for (int x = 0; x < 3; ++x)
+  {
+    for (int y = 0; y < 3; ++y)
+    {
+      if (columns[x] && rows[y] && !(x == 1 && y == 1))
+      {
+        const int column = x == 0 ? -1 : (x == 1 ? 0 : this->width);
+        const int row = y == 0 ? -1 : (y == 1 ? 0 : this->height);
+        const bool abstains = this->pixelVote(column, row) == Vote::Abstain;
+        content.abstain |= abstains;
+        content.background |= !abstains;
+      }
+    }
+  }
+  return content;
+}
+
+PreparedViews::PreparedViews(const std::vector<View>& views, const ViewOptions& options, Execution& execution)
+  : Views(views.size())
+  , Options(options)
+{
+  if (views.empty())
+  {
+    throw InvalidInput("no views: a reconstruction needs at least one silhouette with its projection matrix");
+  }
+  if (views.size() > 0xffff)
+  {
+    throw InvalidInput(std::to_string(views.size()) + " views: at most 65535 are supported");
+  }
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    check(views[i], i);
+  }
+  std::vector<std::uint64_t> fingerprints(views.size());
+  execution.forRanges(views.size(), 1,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        this->Views[i] = prepare(views[i], options.outside);
+        Fingerprinter hash;
+        const std::int32_t size[3] = { views[i].silhouette.width, views[i].silhouette.height, int(options.outside) };
+        hash.add(size, sizeof(size));
+        hash.add(views[i].projection.data(), 12 * sizeof(double));
+        hash.add(this->Views[i].object.data(), this->Views[i].object.size());
+        fingerprints[i] = hash.value();
+      }
+    });
+  Fingerprinter hash;
+  hash.add(fingerprints.data(), fingerprints.size() * sizeof(std::uint64_t));
+  this->Fingerprint = hash.value();
+}
+
+LatticeProjection::LatticeProjection(const Projection& projection, const Lattice& lattice)
+{
+  const double leaf = lattice.leafEdge();
+  double reach = 0.0;
+  for (int row = 0; row < 3; ++row)
+  {
+    this->constant[row] = projection.row(row).head<3>().dot(lattice.root.origin) + projection(row, 3);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->step[axis][row] = projection(row, axis) * leaf;
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    reach += std::abs(this->step[axis][2]) * lattice.cells();
+  }
+  // Nearer to the camera's plane than this, a pixel could not be told to within the guard of the octant test.
+  this->minimumDepth = 1e-4 * reach;
+}
+
+LatticeViews::LatticeViews(const PreparedViews& views, const Lattice& lattice)
+  : Views(&views)
+  , TheLattice(lattice)
+{
+  this->Projections.reserve(views.size());
+  for (int i = 0; i < views.size(); ++i)
+  {
+    this->Projections.emplace_back(views[i].projection, lattice);
+  }
+}
+
+Vote LatticeViews::vote(int i, const LatticePoint& p) const
+{
+  const auto h = this->Projections[i](p);
+  if (!(h.W > this->Projections[i].minimumDepth))
+  {
+    return Vote::Abstain;
+  }
+  const PreparedView& view = this->view(i);
+  return view.pixelVote(
+    PreparedView::nearestPixel(h.U / h.W, view.width), PreparedView::nearestPixel(h.V / h.W, view.height));
+}
+
+int LatticeViews::insideVotes(const LatticePoint& p) const
+{
+  int background = 0;
+  bool seen = false;
+  for (int i = 0; i < this->size(); ++i)
+  {
+    const Vote vote = this->vote(i, p);
+    background += vote == Vote::Background;
+    seen |= vote != Vote::Abstain;
+  }
+  return seen ? this->size() - background : 0;
+}
+
+} // namespace silhouette

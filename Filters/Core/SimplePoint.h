@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Digital topology of the lattice as our marching-cubes table sees it: inside corners are connected through lattice
+ * edges and the diagonals of lattice squares (18-neighbourhood), outside corners through lattice edges
+ * (6-neighbourhood). A corner is simple where changing its label changes neither components nor tunnels nor
+ * cavities (Bertrand's topological numbers for the pair (18, 6+); Bertrand and Malandain 1994).
+ */
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace silhouette
+{
+
+/** Labels of the 27 lattice points around a corner: index (dx + 1) + 3 (dy + 1) + 9 (dz + 1), true is inside. */
+using Neighbourhood = std::array<bool, 27>;
+
+/** What labelling the centre inside would do. */
+struct TopologicalNumbers
+{
+  int inside = 0;  ///< components of the solid around the centre that it would touch
+  int outside = 0; ///< components of the outside around the centre that it touches
+  /** For each of the 27 points the number of its inside component around the centre, or -1 where it is in none. */
+  std::array<std::int8_t, 27> insideComponent{};
+};
+
+TopologicalNumbers topologicalNumbers(const Neighbourhood& labels);
+
+/** True where both numbers are 1. */
+bool isSimple(const TopologicalNumbers& numbers);
+
+} // namespace silhouette

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurvivorCovering.h"
+
+#include "LatticeRegions.h"
+#include "SimplePoint.h"
+
+#include <algorithm>
+#include <deque>
+#include <tuple>
+
+namespace silhouette
+{
+namespace
+{
+
+/** What labelling a corner inside does to the topology, best first. */
+enum class Effect : int
+{
+  Nothing,  ///< the corner is simple
+  Joins,    ///< it joins components and makes no tunnel
+  Founds,   ///< it starts a component of its own
+  Otherwise ///< tunnels or cavities may come or go
+};
+
+struct Candidate
+{
+  Effect effect = Effect::Otherwise;
+  int votes = -1;
+  int covers = 0;
+  std::uint32_t corner = 0xffffffffu;
+
+  /** Smaller is better. */
+  std::tuple<int, int, int, std::uint32_t> rank() const
+  {
+    return { int(this->effect), -this->votes, -this->covers, this->corner };
+  }
+};
+
+class Covering
+{
+public:
+  explicit Covering(LatticeLabels& labels)
+    : Labels(labels)
+    , Solid(connectRegions(labels, true))
+  {
+  }
+
+  CoveringResult run()
+  {
+    this->findLost();
+    this->coverAll();
+    this->joinWithinCells();
+    this->joinAcrossCorners();
+    return this->Result;
+  }
+
+private:
+  const CornerShell& shell() const { return this->Labels.shell(); }
+  bool inside(std::uint32_t corner) const { return this->Labels.inside()[corner] != 0; }
+  std::uint32_t component(std::uint32_t corner) { return this->Solid.sets.find(corner); }
+
+  bool covered(std::uint32_t cell) const
+  {
+    const auto& corners = this->shell().cellCorners[cell];
+    return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return this->inside(c); });
+  }
+
+  void findLost()
+  {
+    for (std::uint32_t cell = 0; cell < this->shell().cells.size(); ++cell)
+    {
+      if (!this->covered(cell))
+      {
+        this->Lost.push_back(cell);
+      }
+    }
+    this->Result.coveredOctants = this->Lost.size();
+  }
+
+  static LatticePoint neighbour(const LatticePoint& p, int n)
+  {
+    return { p.i + n % 3 - 1, p.j + n / 3 % 3 - 1, p.k + n / 9 - 1 };
+  }
+
+  Effect effectOf(const LatticePoint& p)
+  {
+    Neighbourhood labels;
+    for (int n = 0; n < 27; ++n)
+    {
+      labels[n] = n != 13 && this->Labels.insideAt(neighbour(p, n));
+    }
+    const auto numbers = topologicalNumbers(labels);
+    if (isSimple(numbers))
+    {
+      return Effect::Nothing;
+    }
+    if (numbers.inside == 0)
+    {
+      return Effect::Founds;
+    }
+    return numbers.outside == 1 && this->distinctComponents(p, numbers) ? Effect::Joins : Effect::Otherwise;
+  }
+
+  /** Do the local components around p belong to as many components of the whole solid? */
+  bool distinctComponents(const LatticePoint& p, const TopologicalNumbers& numbers)
+  {
+    std::vector<std::uint32_t> roots;
+    for (int part = 0; part < numbers.inside; ++part)
+    {
+      for (int n = 0; n < 27; ++n)
+      {
+        const auto corner = numbers.insideComponent[n] == part ? this->shell().find(mortonCode(neighbour(p, n))) : -1;
+        if (corner >= 0)
+        {
+          roots.push_back(this->component(std::uint32_t(corner)));
+          break;
+        }
+      }
+    }
+    std::sort(roots.begin(), roots.end());
+    return int(roots.size()) == numbers.inside && std::adjacent_find(roots.begin(), roots.end()) == roots.end();
+  }
+
+  Candidate consider(std::uint32_t corner)
+  {
+    const LatticePoint p = fromMorton(this->shell().corners[corner]);
+    Candidate candidate;
+    if (this->Labels.octree().lattice.onBorder(p))
+    {
+      return candidate;
+    }
+    std::array<std::uint32_t, 8> cells;
+    const int count = this->Labels.cellsAround(p, cells);
+    candidate.corner = corner;
+    candidate.votes = this->Labels.votes()[corner];
+    candidate.effect = this->effectOf(p);
+    candidate.covers = int(
+      std::count_if(cells.begin(), cells.begin() + count, [&](std::uint32_t cell) { return !this->covered(cell); }));
+    return candidate;
+  }
+
+  /** The best of the given corners that is not inside yet; corner 0xffffffff where there is none. */
+  template <typename Corners>
+  Candidate best(const Corners& corners)
+  {
+    Candidate best;
+    for (const std::uint32_t corner : corners)
+    {
+      if (!this->inside(corner))
+      {
+        const Candidate candidate = this->consider(corner);
+        best = candidate.rank() < best.rank() ? candidate : best;
+      }
+    }
+    return best;
+  }
+
+  void add(std::uint32_t corner)
+  {
+    this->Labels.setInside(corner);
+    this->Result.coveringCorners.push_back(corner);
+    const LatticePoint p = fromMorton(this->shell().corners[corner]);
+    std::array<std::uint32_t, 8> cells;
+    const int count = this->Labels.cellsAround(p, cells);
+    this->Unsettled.insert(this->Unsettled.end(), cells.begin(), cells.begin() + count);
+    for (int n = 0; n < 27; ++n)
+    {
+      const int differing = (n % 3 != 1) + (n / 3 % 3 != 1) + (n / 9 != 1);
+      const auto other = differing == 1 || differing == 2 ? this->shell().find(mortonCode(neighbour(p, n))) : -1;
+      if (other >= 0 && this->inside(std::uint32_t(other)))
+      {
+        this->Solid.sets.unite(corner, std::uint32_t(other));
+      }
+    }
+  }
+
+  /** Put the uncovered cells around a corner's own cells on the list again. */
+  void revisit(std::uint32_t corner, std::deque<std::uint32_t>& list)
+  {
+    const LatticePoint p = fromMorton(this->shell().corners[corner]);
+    for (int n = 0; n < 64; ++n)
+    {
+      const LatticePoint cell{ p.i + n % 4 - 2, p.j + n / 4 % 4 - 2, p.k + n / 16 - 2 };
+      if (this->Labels.octree().lattice.hasCell(cell))
+      {
+        const auto& cells = this->shell().cells;
+        const auto at = std::lower_bound(cells.begin(), cells.end(), mortonCode(cell));
+        if (at != cells.end() && *at == mortonCode(cell) && !this->covered(std::uint32_t(at - cells.begin())))
+        {
+          list.push_back(std::uint32_t(at - cells.begin()));
+        }
+      }
+    }
+  }
+
+  /** Grow from the solid as long as that changes no topology, then found a new component, and so on. */
+  void coverAll()
+  {
+    std::deque<std::uint32_t> list(this->Lost.begin(), this->Lost.end());
+    std::size_t next = 0;
+    for (;;)
+    {
+      const bool growing = !list.empty();
+      std::uint32_t cell = 0;
+      if (growing)
+      {
+        cell = list.front();
+        list.pop_front();
+      }
+      else if (next < this->Lost.size())
+      {
+        cell = this->Lost[next++];
+      }
+      else
+      {
+        return;
+      }
+      if (this->covered(cell))
+      {
+        continue;
+      }
+      const Candidate candidate = this->best(this->shell().cellCorners[cell]);
+      if (!growing || candidate.effect == Effect::Nothing || candidate.effect == Effect::Joins)
+      {
+        this->add(candidate.corner);
+        this->revisit(candidate.corner, list);
+      }
+    }
+  }
+
+  /** The inside corners of a cell belong to one component; two that do not are opposite ends of its diagonal. */
+  void joinWithin(std::uint32_t cell)
+  {
+    const auto& corners = this->shell().cellCorners[cell];
+    for (int c = 0; c < 4; ++c)
+    {
+      const std::uint32_t a = corners[c], b = corners[7 - c];
+      if (this->inside(a) && this->inside(b) && this->component(a) != this->component(b))
+      {
+        this->add(this->best(corners).corner);
+      }
+    }
+  }
+
+  /** Every cell around a corner that was added may hold a second component now. */
+  void settle()
+  {
+    for (; !this->Unsettled.empty(); this->Unsettled.pop_front())
+    {
+      this->joinWithin(this->Unsettled.front());
+    }
+  }
+
+  void joinWithinCells()
+  {
+    this->Unsettled.clear();
+    for (std::uint32_t cell = 0; cell < this->shell().cells.size(); ++cell)
+    {
+      this->joinWithin(cell);
+    }
+    this->settle();
+  }
+
+  /** Are the cells around a corner in more than one component? */
+  bool parts(const std::array<std::uint32_t, 8>& cells, int count)
+  {
+    std::uint32_t first = 0xffffffffu;
+    for (int n = 0; n < count; ++n)
+    {
+      for (const std::uint32_t corner : this->shell().cellCorners[cells[n]])
+      {
+        if (this->inside(corner))
+        {
+          const std::uint32_t root = this->component(corner);
+          first = first == 0xffffffffu ? root : first;
+          if (root != first)
+          {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  void joinAcrossCorners()
+  {
+    std::vector<Candidate> apart;
+    std::array<std::uint32_t, 8> cells;
+    for (std::uint32_t corner = 0; corner < this->shell().corners.size(); ++corner)
+    {
+      const LatticePoint p = fromMorton(this->shell().corners[corner]);
+      if (!this->inside(corner) && !this->Labels.octree().lattice.onBorder(p) &&
+        this->parts(cells, this->Labels.cellsAround(p, cells)))
+      {
+        apart.push_back(this->consider(corner));
+      }
+    }
+    std::sort(apart.begin(), apart.end(), [](const Candidate& a, const Candidate& b) { return a.rank() < b.rank(); });
+    for (const auto& candidate : apart)
+    {
+      const int count = this->Labels.cellsAround(fromMorton(this->shell().corners[candidate.corner]), cells);
+      if (!this->inside(candidate.corner) && this->parts(cells, count))
+      {
+        this->add(candidate.corner);
+        this->settle();
+      }
+    }
+  }
+
+  LatticeLabels& Labels;
+  LatticeRegions Solid;
+  std::vector<std::uint32_t> Lost;
+  std::deque<std::uint32_t> Unsettled;
+  CoveringResult Result;
+};
+
+} // namespace
+
+CoveringResult coverSurvivors(LatticeLabels& labels)
+{
+  return Covering(labels).run();
+}
+
+} // namespace silhouette

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Covering: label further corners inside until every last-generation survivor has an inside corner, and survivors
+ * that touch (26-neighbourhood) belong to one component of the solid (Documentation/method.md, section 4).
+ */
+#pragma once
+
+#include "LatticeLabels.h"
+
+namespace silhouette
+{
+
+/** What covering did. */
+struct CoveringResult
+{
+  std::uint64_t coveredOctants = 0;           ///< survivors that had no inside corner
+  std::vector<std::uint32_t> coveringCorners; ///< shell corners that were labelled inside, in that order
+};
+
+/**
+ * Corners that change no topology (simple ones) come first, then those that join components, then those that found one,
+ * and only where none of these is left any other; among equals the corner with most inside votes, then the one
+ * that covers most octants, then the first in lattice order. Cost: linear in the lost octants.
+ */
+CoveringResult coverSurvivors(LatticeLabels& labels);
+
+} // namespace silhouette

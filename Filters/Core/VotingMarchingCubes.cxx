@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VotingMarchingCubes.h"
+
+#include "CornerShell.h"
+#include "EdgeCrossing.h"
+#include "LatticeSurface.h"
+
+#include <cmath>
+
+namespace silhouette
+{
+namespace
+{
+
+/** k, after checking that octree, views, mode and share fit together. */
+int allowedBackgroundVotes(const Octree& octree, const PreparedViews& views, const VotingOptions& options)
+{
+  const int required = requiredInsideVotes(options.share, views.size());
+  const int allowed = views.size() - required;
+  if (octree.fingerprint != views.fingerprint())
+  {
+    throw InvalidInput("the octree was carved from other views, or with another policy outside the image");
+  }
+  const int needed = options.mode == VotingMode::Faithful ? 0 : allowed;
+  if (octree.backgroundVotes != needed)
+  {
+    throw InvalidInput("the octree allows " + std::to_string(octree.backgroundVotes) + " background votes, but " +
+      (options.mode == VotingMode::Faithful ? std::string("the faithful mode needs the strict octree: 0")
+                                            : "a vote share of " + std::to_string(options.share) + " of " +
+            std::to_string(views.size()) + " views needs exactly " + std::to_string(needed)));
+  }
+  return allowed;
+}
+
+void countLost(const CornerShell& shell, const std::vector<std::uint8_t>& inside, VotingSurface& surface)
+{
+  surface.intersectionOctants = shell.cells.size();
+  for (const auto& corners : shell.cellCorners)
+  {
+    int count = 0;
+    for (const std::uint32_t corner : corners)
+    {
+      count += inside[corner];
+    }
+    surface.lostNoCorner += count == 0;
+    surface.lostAllCorners += count == 8;
+  }
+}
+
+/** Run `work(i)` for i in [0, count), with progress and a chance to stop after each sixteenth. */
+template <typename Work>
+void forEach(Execution& execution, std::size_t count, const Work& work)
+{
+  constexpr std::size_t Steps = 16;
+  for (std::size_t step = 0; step < Steps; ++step)
+  {
+    const std::size_t from = count * step / Steps, to = count * (step + 1) / Steps;
+    execution.forRanges(to - from, 1024,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = from + first; i < from + last; ++i)
+        {
+          work(i);
+        }
+      });
+    execution.checkpoint(double(step + 1) / Steps);
+  }
+}
+
+} // namespace
+
+int requiredInsideVotes(double share, int views)
+{
+  if (!(share > 0.0) || share > 1.0)
+  {
+    throw InvalidInput("vote share " + std::to_string(share) + " is outside (0, 1]");
+  }
+  return std::max(1, int(std::ceil(share * views - 1e-9)));
+}
+
+VotingSurface votingMarchingCubes(
+  const Octree& octree, const PreparedViews& views, const VotingOptions& options, Execution& execution)
+{
+  const int allowed = allowedBackgroundVotes(octree, views, options);
+  const int required = views.size() - allowed;
+  const LatticeViews latticeViews(views, octree.lattice);
+  const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
+  execution.checkpoint(0.15);
+
+  std::vector<std::uint16_t> votes(shell.corners.size());
+  std::vector<std::uint8_t> inside(shell.corners.size());
+  Phase voting(execution, 0.15, 0.5);
+  forEach(voting, votes.size(),
+    [&](std::size_t c)
+    {
+      const LatticePoint p = fromMorton(shell.corners[c]);
+      votes[c] = std::uint16_t(latticeViews.insideVotes(p));
+      inside[c] = votes[c] >= required && !octree.lattice.onBorder(p);
+    });
+
+  VotingSurface surface;
+  countLost(shell, inside, surface);
+  LatticeSurface contoured = contour(shell, inside, execution);
+  execution.checkpoint(0.6);
+  surface.mesh.triangles = std::move(contoured.triangles);
+  surface.mesh.points.resize(contoured.edges.size());
+  surface.insideVotes.resize(contoured.edges.size());
+  Phase placing(execution, 0.6, 1.0);
+  forEach(placing, contoured.edges.size(),
+    [&](std::size_t e)
+    {
+      const CrossedEdge& edge = contoured.edges[e];
+      double t = 0.5;
+      if (options.edges == EdgePlacement::Exact)
+      {
+        t = exactCrossing(latticeViews, fromMorton(shell.corners[edge.inside]),
+          fromMorton(shell.corners[edge.outside]), allowed);
+      }
+      surface.mesh.points[e] = crossingPosition(
+        octree.lattice, shell, edge, std::clamp(t, CrossingMargin, 1.0 - CrossingMargin));
+      surface.insideVotes[e] = { votes[edge.inside], votes[edge.outside] };
+    });
+  return surface;
+}
+
+} // namespace silhouette

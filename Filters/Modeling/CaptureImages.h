@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A described capture's images opened, and its matrices made ready: what vtkSilhouetteCaptureReader delivers.
+ * Private to the module.
+ */
+#pragma once
+
+#include "CaptureFolder.h"
+#include "Execution.h"
+#include "SilhouetteExtraction.h"
+#include "ViewConversion.h"
+
+class vtkPolyData;
+
+namespace silhouette::modeling
+{
+
+/** Which of a view's files is opened. */
+enum class CaptureImageChoice : int
+{
+  MasksWherePresent = 0,
+  Photographs = 1,
+  Masks = 2
+};
+
+/**
+ * The views of a capture. Matrices whose sign is free are made positive at the object: at the point nearest the
+ * rays through the silhouettes' centroids, or through the images' centres where an image is no silhouette. Throws
+ * InvalidInput, naming the files: what readImage throws; a mask of another size than its photograph; no file of the
+ * wanted kind.
+ */
+std::vector<ImageView> readCapture(
+  const CaptureDescription& capture, CaptureImageChoice choice, Execution& execution);
+
+/** Whether a view's image was found as a mask: an integer in its field data, kept by every filter. */
+bool isMask(const ImageView& view);
+
+/** A view's pixels as the extraction takes them. Throws as pixelRows. */
+ColourImage colourImage(const ImageView& view, std::size_t index);
+
+/**
+ * The cameras as lines: from the centre to the image's corners and around these, a fifth of the way to the point
+ * nearest all optical rays; cell array `View`. A camera at infinity has none.
+ */
+void storeFrustums(const std::vector<ImageView>& views, vtkPolyData* lines);
+
+} // namespace silhouette::modeling

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CarvingSetup.h"
+
+#include "AutomaticBounds.h"
+#include "Error.h"
+#include "ProjectiveCameras.h"
+#include "ViewConversion.h"
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <sstream>
+
+namespace silhouette::modeling
+{
+namespace
+{
+
+void checkDepth(int depth)
+{
+  if (depth < 1 || depth > MaximumDepth)
+  {
+    throw InvalidInput(
+      "depth " + std::to_string(depth) + " is out of range: 1 to " + std::to_string(MaximumDepth) + " are possible");
+  }
+}
+
+RootCube givenCube(const std::array<double, 6>& bounds)
+{
+  Eigen::Vector3d lowest, highest;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    lowest[axis] = bounds[2 * axis];
+    highest[axis] = bounds[2 * axis + 1];
+    if (!std::isfinite(lowest[axis]) || !std::isfinite(highest[axis]) || !(lowest[axis] < highest[axis]))
+    {
+      std::ostringstream text;
+      text << "bounds " << lowest[axis] << " to " << highest[axis] << " on axis " << "xyz"[axis]
+           << " are not a box: two finite numbers, the smaller first, are needed";
+      throw InvalidInput(text.str());
+    }
+  }
+  return enclosingCube(lowest, highest);
+}
+
+int depthFor(double leafEdge, double edge)
+{
+  int depth = 1;
+  while (depth <= MaximumDepth && std::ldexp(edge, -depth) > leafEdge)
+  {
+    ++depth;
+  }
+  if (depth > MaximumDepth)
+  {
+    std::ostringstream text;
+    text << "octants of edge " << leafEdge << " in a cube of edge " << edge << " need a depth above " << MaximumDepth;
+    throw InvalidInput(text.str());
+  }
+  return depth;
+}
+
+bool cameraInside(const Projection& projection, const RootCube& root)
+{
+  const Eigen::Matrix3d left = projection.leftCols<3>();
+  const Eigen::FullPivLU<Eigen::Matrix3d> lu(left);
+  if (!lu.isInvertible())
+  {
+    return false; // a camera at infinity
+  }
+  const Eigen::Vector3d centre = lu.solve(-projection.col(3));
+  const Eigen::Array3d inRoot = (centre - root.origin).array();
+  return (inRoot >= 0.0).all() && (inRoot <= root.edge).all();
+}
+
+/** The sides of its image that a silhouette touches, in words. */
+std::string touchedSides(const PreparedView& view)
+{
+  const std::array<bool, 4> touched = { view.objectBox[0] == 0, view.objectBox[1] == view.width - 1,
+    view.objectBox[2] == 0, view.objectBox[3] == view.height - 1 };
+  const char* const names[4] = { "left", "right", "top", "bottom" };
+  std::string text;
+  for (int side = 0; side < 4; ++side)
+  {
+    if (touched[side])
+    {
+      text += (text.empty() ? "" : ", ") + std::string(names[side]);
+    }
+  }
+  return text;
+}
+
+std::string silhouetteWarning(const PreparedView& view, const std::string& name)
+{
+  const std::int64_t objects = view.objectPixels(0, view.width, 0, view.height);
+  if (objects == std::int64_t(view.width) * view.height)
+  {
+    return name + ": the silhouette is all object; it carves nothing within its image";
+  }
+  const std::string sides = objects > 0 ? touchedSides(view) : std::string();
+  return sides.empty() ? sides : name + ": the silhouette is cut by the image's border (" + sides + ")";
+}
+
+bool hasInsideBorderCorner(const LatticePoint& cell, const Octree& octree, const LatticeViews& views)
+{
+  for (int c = 0; c < 8; ++c)
+  {
+    const LatticePoint corner = cell + cornerOffset(c);
+    if (octree.lattice.onBorder(corner) && views.insideVotes(corner) >= octree.viewCount - octree.backgroundVotes)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
+Lattice makeLattice(const PreparedViews& views, const LatticeSettings& settings, Execution& execution)
+{
+  if (!(settings.leafEdge >= 0.0) || std::isinf(settings.leafEdge))
+  {
+    throw InvalidInput("leaf edge " + std::to_string(settings.leafEdge) + " is not a length");
+  }
+  if (settings.leafEdge == 0.0)
+  {
+    checkDepth(settings.depth);
+  }
+  const bool findDepth = settings.leafEdge > 0.0;
+  if (!settings.automaticBounds)
+  {
+    const RootCube cube = givenCube(settings.bounds);
+    return { cube, findDepth ? depthFor(settings.leafEdge, cube.edge) : settings.depth };
+  }
+  AutomaticBoundsOptions options;
+  options.backgroundVotes = settings.backgroundVotes;
+  if (findDepth)
+  {
+    // The cube depends a little on the depth that it is meant for: find the depth in a first one.
+    Phase first(execution, 0.0, 0.5);
+    options.depth = depthFor(settings.leafEdge, automaticBounds(views, options, first).edge);
+    Phase second(execution, 0.5, 1.0);
+    const RootCube cube = automaticBounds(views, options, second);
+    return { cube, depthFor(settings.leafEdge, cube.edge) };
+  }
+  options.depth = settings.depth;
+  return { automaticBounds(views, options, execution), settings.depth };
+}
+
+std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice& lattice, bool automaticBounds)
+{
+  std::vector<std::string> warnings;
+  std::vector<Projection> projections;
+  std::vector<std::string> names;
+  for (int i = 0; i < views.size(); ++i)
+  {
+    const PreparedView& view = views[i];
+    const std::string name = describeView(std::size_t(i), view.name);
+    std::string warning = silhouetteWarning(view, name);
+    if (!warning.empty())
+    {
+      warnings.push_back(std::move(warning));
+    }
+    if (cameraInside(view.projection, lattice.root))
+    {
+      warnings.push_back(name + ": the camera is inside the root cube; the view says nothing of what is behind it");
+    }
+    projections.push_back(view.projection);
+    names.push_back(view.name);
+  }
+  if (views.size() == 1 && !automaticBounds)
+  {
+    warnings.push_back("only " + describeView(0, views[0].name) +
+      ": the object is bounded by the given box alone along the line of sight");
+  }
+  std::string projective = projectiveWarning(projections, names);
+  if (!projective.empty())
+  {
+    warnings.push_back(std::move(projective));
+  }
+  return warnings;
+}
+
+std::string cutByBoxWarning(const Octree& octree, const LatticeViews& views)
+{
+  const Generation& last = octree.last();
+  const std::int32_t highest = octree.lattice.cells() - 1;
+  for (std::size_t i = 0; i < last.size(); ++i)
+  {
+    const LatticePoint cell = fromMorton(last.code[i]);
+    const bool atBorder = cell.i == 0 || cell.j == 0 || cell.k == 0 || cell.i == highest || cell.j == highest ||
+      cell.k == highest;
+    if (last.state[i] != OctantState::Background && atBorder && hasInsideBorderCorner(cell, octree, views))
+    {
+      const Eigen::Vector3d at = octree.lattice.position(cell);
+      std::ostringstream text;
+      text << "the object is cut by the root cube's border, at " << at[0] << ", " << at[1] << ", " << at[2]
+           << " for one; no view's silhouette ends there";
+      return text.str();
+    }
+  }
+  return {};
+}
+
+} // namespace silhouette::modeling

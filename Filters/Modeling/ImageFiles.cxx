@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ImageFiles.h"
+
+#include "Error.h"
+
+#include "vtkBMPReader.h"
+#include "vtkCallbackCommand.h"
+#include "vtkExecutive.h"
+#include "vtkImageData.h"
+#include "vtkJPEGReader.h"
+#include "vtkNew.h"
+#include "vtkPNGReader.h"
+#include "vtkPNMReader.h"
+#include "vtkPointData.h"
+#include "vtkTIFFReader.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnsignedShortArray.h"
+
+#include <string>
+
+namespace silhouette::modeling
+{
+namespace
+{
+
+/** Takes down the errors of a reader and of its executive, which are thereby not printed. */
+class ErrorListener
+{
+public:
+  explicit ErrorListener(vtkAlgorithm* reader)
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void* text)
+      {
+        std::string& first = static_cast<ErrorListener*>(self)->Text;
+        if (first.empty())
+        {
+          first = text ? static_cast<const char*>(text) : "unknown error";
+        }
+      });
+    reader->AddObserver(vtkCommand::ErrorEvent, this->Command);
+    reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Command);
+  }
+
+  /** The first error's last line, without VTK's preamble; empty where there was none. */
+  std::string message() const
+  {
+    const std::size_t end = this->Text.find_last_not_of(" \n\r");
+    if (end == std::string::npos)
+    {
+      return {};
+    }
+    const std::size_t start = this->Text.rfind('\n', end);
+    return this->Text.substr(start == std::string::npos ? 0 : start + 1, end - (start == std::string::npos ? 0 : start + 1) + 1);
+  }
+  bool heard() const { return !this->Text.empty(); }
+
+private:
+  vtkNew<vtkCallbackCommand> Command;
+  std::string Text;
+};
+
+template <typename Reader> vtkSmartPointer<vtkImageReader2> readerIfItFits(const char* file)
+{
+  auto reader = vtkSmartPointer<Reader>::New();
+  const ErrorListener quiet(reader);
+  return reader->CanReadFile(file) ? vtkSmartPointer<vtkImageReader2>(reader) : nullptr;
+}
+
+vtkSmartPointer<vtkImageReader2> makeReader(const std::filesystem::path& file)
+{
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+  {
+    throw InvalidInput("cannot read image " + file.string() + ": no such file");
+  }
+  const std::string name = file.string();
+  using Candidate = vtkSmartPointer<vtkImageReader2> (*)(const char*);
+  for (const Candidate candidate : { Candidate(readerIfItFits<vtkPNGReader>), Candidate(readerIfItFits<vtkJPEGReader>),
+         Candidate(readerIfItFits<vtkPNMReader>), Candidate(readerIfItFits<vtkBMPReader>),
+         Candidate(readerIfItFits<vtkTIFFReader>) })
+  {
+    if (auto reader = candidate(name.c_str()))
+    {
+      reader->SetFileName(name.c_str());
+      return reader;
+    }
+  }
+  throw InvalidInput("cannot read image " + name + ": not a PNG, JPEG, PNM, BMP or TIFF image, or a broken one");
+}
+
+void eightBits(vtkUnsignedShortArray* wide, vtkImageData* image)
+{
+  vtkNew<vtkUnsignedCharArray> narrow;
+  narrow->SetNumberOfComponents(wide->GetNumberOfComponents());
+  narrow->SetNumberOfTuples(wide->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < wide->GetNumberOfValues(); ++i)
+  {
+    narrow->SetValue(i, static_cast<unsigned char>((wide->GetValue(i) + 128u) / 257u));
+  }
+  image->GetPointData()->SetScalars(narrow);
+}
+
+} // namespace
+
+vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file)
+{
+  const auto reader = makeReader(file);
+  const ErrorListener listener(reader);
+  reader->Update();
+  if (listener.heard() || reader->GetErrorCode() != 0)
+  {
+    throw InvalidInput("cannot read image " + file.string() + ": " + listener.message());
+  }
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->ShallowCopy(reader->GetOutput());
+  int size[3];
+  image->GetDimensions(size);
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  if (size[0] < 1 || size[1] < 1 || size[2] != 1 || !scalars || scalars->GetNumberOfComponents() > 4)
+  {
+    throw InvalidInput("cannot read image " + file.string() + ": it is not one image of 1 to 4 channels");
+  }
+  if (auto* wide = vtkUnsignedShortArray::SafeDownCast(scalars))
+  {
+    eightBits(wide, image);
+  }
+  else if (!vtkUnsignedCharArray::SafeDownCast(scalars))
+  {
+    throw InvalidInput("cannot read image " + file.string() + ": its values are of type " +
+      scalars->GetDataTypeAsString() + ", 8 or 16 bits without sign are understood");
+  }
+  return image;
+}
+
+std::array<int, 2> readImageSize(const std::filesystem::path& file)
+{
+  const auto reader = makeReader(file);
+  const ErrorListener listener(reader);
+  reader->UpdateInformation();
+  if (listener.heard())
+  {
+    throw InvalidInput("cannot read image " + file.string() + ": " + listener.message());
+  }
+  int extent[6];
+  reader->GetDataExtent(extent);
+  return { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1 };
+}
+
+} // namespace silhouette::modeling

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Image files, decoded by VTK's readers: PNG, JPEG, PNM, BMP and TIFF. Private to the module.
+ *
+ * The readers run one after the other: VTK promises nothing about several at the same time.
+ */
+#pragma once
+
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <filesystem>
+
+class vtkImageData;
+
+namespace silhouette::modeling
+{
+
+/**
+ * An image of 8 bits a channel; 16-bit values are divided by 257. Throws InvalidInput, naming the file and what the
+ * reader said: no such file, no format that is understood, an error while decoding, other than one 2D image of 8 or
+ * 16 bits.
+ */
+vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file);
+
+/** Width and height, from the file's header alone. Throws as readImage. */
+std::array<int, 2> readImageSize(const std::filesystem::path& file);
+
+} // namespace silhouette::modeling

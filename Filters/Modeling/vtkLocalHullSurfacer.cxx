@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkLocalHullSurfacer.h"
+
+#include "FieldValues.h"
+#include "LocalHullSurface.h"
+#include "MeshConversion.h"
+#include "OctreeConversion.h"
+#include "PreparedViewsSharing.h"
+#include "vtkSilhouetteExecution.h"
+
+#include "vtkCellData.h"
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkHyperTreeGrid.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkInformationVector.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+
+using namespace silhouette::modeling;
+
+namespace
+{
+
+/** The filter's inputs as the core takes them. */
+struct Inputs
+{
+  silhouette::Mesh surface;
+  silhouette::Octree octree;
+  SharedViews views; ///< null without views
+
+  Inputs(vtkPolyData* polyData, vtkHyperTreeGrid* grid, vtkPartitionedDataSetCollection* collection,
+    silhouette::Execution& execution)
+  {
+    this->surface = meshOf(polyData, "the surface");
+    this->octree = octreeOf(grid);
+    if (collection)
+    {
+      silhouette::ViewOptions options;
+      options.outside = this->octree.outside;
+      this->views = preparedViews(collection, options, execution);
+    }
+    execution.checkpoint(1.0);
+  }
+};
+
+void storeSurface(const silhouette::LocalHullSurface& found, const MeshOutput& output, vtkPolyData* surface)
+{
+  storeMesh(found.mesh, output, surface);
+  setField(surface, "Survivors", found.survivors);
+  setField(surface, "CoveredOctants", found.coveredOctants);
+  setField(surface, "CoveringCorners", found.coveringCorners);
+  setField(surface, "CavitiesFilled", found.cavitiesFilled);
+  setField(surface, "IgnoredPoints", found.ignoredPoints);
+  setField(surface, "MovedToMiddle", found.movedToMiddle);
+}
+
+void storeHulls(const std::vector<silhouette::LocalHull>& found, const MeshOutput& output, vtkPolyData* hulls)
+{
+  silhouette::Mesh all;
+  vtkNew<vtkIntArray> ids;
+  ids->SetName("HullId");
+  for (std::size_t hull = 0; hull < found.size(); ++hull)
+  {
+    const auto offset = static_cast<std::int32_t>(all.points.size());
+    const silhouette::Mesh& mesh = found[hull].mesh;
+    all.points.insert(all.points.end(), mesh.points.begin(), mesh.points.end());
+    for (const silhouette::Triangle& t : mesh.triangles)
+    {
+      all.triangles.push_back({ t[0] + offset, t[1] + offset, t[2] + offset });
+      ids->InsertNextValue(static_cast<int>(hull));
+    }
+  }
+  storeMesh(all, output, hulls);
+  hulls->GetCellData()->SetScalars(ids);
+}
+
+int requestedPort(vtkInformation* request)
+{
+  return request->Has(vtkExecutive::FROM_OUTPUT_PORT()) ? request->Get(vtkExecutive::FROM_OUTPUT_PORT()) : -1;
+}
+
+} // namespace
+
+vtkStandardNewMacro(vtkLocalHullSurfacer);
+
+vtkLocalHullSurfacer::vtkLocalHullSurfacer()
+  : FillCavities(silhouette::LocalHullOptions().fillCavities)
+  , CoverOffset(silhouette::LocalHullOptions().coverOffset)
+  , SeedBlock(silhouette::LocalHullOptions().hulls.seedBlock)
+{
+  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfOutputPorts(2);
+}
+
+int vtkLocalHullSurfacer::FillInputPortInformation(int port, vtkInformation* info)
+{
+  const char* const types[] = { "vtkPolyData", "vtkHyperTreeGrid", "vtkPartitionedDataSetCollection" };
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
+  if (port == 2)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+vtkTypeBool vtkLocalHullSurfacer::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  // The executive asks beforehand what will not be made. An output that was left out stays out of date, so that
+  // asking for it later executes the filter for that output alone.
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_NOT_GENERATED()))
+  {
+    const int port = requestedPort(request);
+    if (port >= 0)
+    {
+      outputs->GetInformationObject(1 - port)->Set(vtkDemandDrivenPipeline::DATA_NOT_GENERATED(), 1);
+    }
+    return 1;
+  }
+  return this->Superclass::ProcessRequest(request, inputs, outputs);
+}
+
+int vtkLocalHullSurfacer::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkHyperTreeGrid* grid = vtkHyperTreeGrid::GetData(inputs[1]);
+  const int port = requestedPort(request);
+
+  const auto makeWhole = [&](vtkSilhouetteExecution& execution)
+  {
+    if (isEmpty(grid))
+    {
+      return;
+    }
+    silhouette::LocalHullOptions options;
+    options.fillCavities = this->FillCavities;
+    options.coverOffset = this->CoverOffset;
+    options.singlePrecision = this->OutputPointsPrecision == SINGLE_PRECISION;
+    options.hulls.seedBlock = this->SeedBlock;
+    silhouette::Phase reading(execution, 0.0, 0.1);
+    const Inputs in(vtkPolyData::GetData(inputs[0]), grid, vtkPartitionedDataSetCollection::GetData(inputs[2]), reading);
+    MeshOutput output;
+    output.pointsPrecision = this->OutputPointsPrecision;
+    output.normals = this->GenerateNormals;
+    if (port != 1)
+    {
+      silhouette::Phase surfacing(execution, 0.1, port < 0 ? 0.5 : 1.0);
+      storeSurface(silhouette::localHullSurface(in.surface, in.octree, in.views.get(), options, surfacing), output,
+        vtkPolyData::GetData(outputs, 0));
+    }
+    if (port != 0)
+    {
+      silhouette::Phase classifying(execution, port < 0 ? 0.5 : 0.1, 1.0);
+      storeHulls(silhouette::classifyLocalHulls(in.surface, in.octree, in.views.get(), options, classifying), output,
+        vtkPolyData::GetData(outputs, 1));
+    }
+    execution.progress(1.0);
+  };
+  return runFilter(this, outputs, makeWhole, port);
+}
+
+void vtkLocalHullSurfacer::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FillCavities: " << (this->FillCavities ? "On" : "Off") << "\n";
+  os << indent << "CoverOffset: " << this->CoverOffset << "\n";
+  os << indent << "SeedBlock: " << this->SeedBlock << "\n";
+  os << indent << "GenerateNormals: " << (this->GenerateNormals ? "On" : "Off") << "\n";
+  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+}

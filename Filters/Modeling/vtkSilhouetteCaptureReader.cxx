@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSilhouetteCaptureReader.h"
+
+#include "CaptureFolder.h"
+#include "CaptureImages.h"
+#include "ViewConversion.h"
+#include "vtkSilhouetteExecution.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+
+#include <exception>
+
+using namespace silhouette::modeling;
+
+vtkStandardNewMacro(vtkSilhouetteCaptureReader);
+
+vtkSilhouetteCaptureReader::vtkSilhouetteCaptureReader()
+{
+  this->SetNumberOfInputPorts(0);
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkSilhouetteCaptureReader::~vtkSilhouetteCaptureReader()
+{
+  this->SetFileName(nullptr);
+  this->SetViews(nullptr);
+}
+
+int vtkSilhouetteCaptureReader::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPartitionedDataSetCollection" : "vtkPolyData");
+  return 1;
+}
+
+vtkPolyData* vtkSilhouetteCaptureReader::GetCamerasOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+int vtkSilhouetteCaptureReader::CanReadFile(const char* fileName)
+{
+  try
+  {
+    silhouette::describeCapture(fileName ? fileName : "");
+    return 1;
+  }
+  catch (const std::exception&)
+  {
+    return 0;
+  }
+}
+
+int vtkSilhouetteCaptureReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  return 1;
+}
+
+int vtkSilhouetteCaptureReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  const auto read = [&](vtkSilhouetteExecution& execution)
+  {
+    if (!this->FileName || !*this->FileName)
+    {
+      throw silhouette::InvalidInput("no file name: the folder of a capture or its camera file is needed");
+    }
+    silhouette::CaptureOptions options;
+    options.views = this->Views ? this->Views : "";
+    options.cornerFamily = this->PixelFamily == CORNER;
+    const silhouette::CaptureDescription capture = silhouette::describeCapture(this->FileName, options);
+    for (const std::string& warning : capture.warnings)
+    {
+      vtkWarningMacro(<< warning);
+    }
+    silhouette::Phase reading(execution, 0.0, 0.98);
+    const std::vector<ImageView> views =
+      readCapture(capture, static_cast<CaptureImageChoice>(this->ImageChoice), reading);
+    storeViews(views, vtkPartitionedDataSetCollection::GetData(outputs, 0));
+    storeFrustums(views, vtkPolyData::GetData(outputs, 1));
+    execution.progress(1.0);
+  };
+  return runFilter(this, outputs, read);
+}
+
+void vtkSilhouetteCaptureReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const char* const choices[] = { "MasksWherePresent", "Photographs", "Masks" };
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Views: " << (this->Views ? this->Views : "(all)") << "\n";
+  os << indent << "ImageChoice: " << choices[this->ImageChoice] << "\n";
+  os << indent << "PixelFamily: " << (this->PixelFamily == CORNER ? "Corner" : "Integer") << "\n";
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSilhouetteCaptureReader
+ * @brief   read a capture: calibrated photographs, or their masks
+ *
+ * Reads the images and camera matrices of a folder or of a camera file. Two layouts are understood: a P list
+ * (`projections.txt`: image name and the 3 x 4 matrix, a line a view) and Middlebury's `*_par.txt`.
+ *
+ * | port | data set | array | type, components | meaning |
+ * | --- | --- | --- | --- | --- |
+ * | output 0 | vtkPartitionedDataSetCollection of vtkImageData, named by their files | point scalars | unsigned char, 1 to 4 | photographs or masks |
+ * | | | field `Projection` | double, 12 | the view's 3 x 4 matrix, row by row |
+ * | | | field `IsMask` | int, 1 | 1 where the image was found as a mask |
+ * | output 1 | vtkPolyData, lines | cells `View` | int, 1 | the cameras: centre, image corners; the view's number |
+ *
+ * | format | pixel family | sign of w | images |
+ * | --- | --- | --- | --- |
+ * | P list | integer: (0, 0) is the first pixel's centre; an option | free: made positive at the object | `images/` and `masks/` with equal stems, or beside the camera file |
+ * | Middlebury | not stated: integer; an option | positive in front | the same |
+ *
+ * Images are PNG, JPEG, PNM, BMP or TIFF; 16-bit values are brought to 8 bits. Where a
+ * `*_good_silhouette_images.txt` exists only its views are read, unless Views says otherwise.
+ *
+ * Steps: the camera file is read and each view's files are found; images are decoded one after the other (VTK's
+ * readers promise nothing about threads); a P list's matrices are negated where the object would lie behind
+ * the camera: the object is the point nearest the rays through the silhouettes' centroids, or through the
+ * images' centres where they are photographs.
+ *
+ * Cost and memory: the images'. All views are given to every piece; the cameras to the first.
+ *
+ * Limits: no lens distortion; no EXIF rotation; files that change are not noticed: call Modified(). Errors
+ * (message naming the file, empty outputs): no or several camera files, a line that is not understood, a missing or
+ * unreadable image, a mask of another size than its photograph. AbortExecute is honoured: the outputs are then empty,
+ * without an error; VTK does not run an aborted or failed filter again by itself: call Modified() to ask for it.
+ *
+ * @sa vtkSilhouetteExtractor vtkSilhouetteOctreeSource
+ */
+#ifndef vtkSilhouetteCaptureReader_h
+#define vtkSilhouetteCaptureReader_h
+
+#include "vtkPartitionedDataSetCollectionAlgorithm.h"
+#include "vtkSilhouetteFiltersModelingModule.h" // for the export macro
+
+class vtkPolyData;
+
+class VTKSILHOUETTEFILTERSMODELING_EXPORT vtkSilhouetteCaptureReader
+  : public vtkPartitionedDataSetCollectionAlgorithm
+{
+public:
+  static vtkSilhouetteCaptureReader* New();
+  vtkTypeMacro(vtkSilhouetteCaptureReader, vtkPartitionedDataSetCollectionAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Which of a view's files is read. */
+  enum ImageChoices
+  {
+    MASKS_WHERE_PRESENT = 0, ///< the mask, or else the photograph
+    PHOTOGRAPHS = 1,
+    MASKS = 2
+  };
+
+  /** Where the camera file's pixel coordinates put the centre of the first pixel. */
+  enum PixelFamilies
+  {
+    INTEGER = 0, ///< at (0, 0)
+    CORNER = 1   ///< at (0.5, 0.5)
+  };
+
+  ///@{
+  /** The folder of the capture, or its camera file. */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /**
+   * The views to read, by number from 0, range or image name: "0,3,5-9", "a.png,b.png". Null or empty (default):
+   * all, or the good silhouettes where the capture lists them.
+   */
+  vtkSetStringMacro(Views);
+  vtkGetStringMacro(Views);
+  ///@}
+
+  ///@{
+  /** Which images are read: MASKS_WHERE_PRESENT (default), PHOTOGRAPHS or MASKS. */
+  vtkSetClampMacro(ImageChoice, int, MASKS_WHERE_PRESENT, MASKS);
+  vtkGetMacro(ImageChoice, int);
+  void SetImageChoiceToMasksWherePresent() { this->SetImageChoice(MASKS_WHERE_PRESENT); }
+  void SetImageChoiceToPhotographs() { this->SetImageChoice(PHOTOGRAPHS); }
+  void SetImageChoiceToMasks() { this->SetImageChoice(MASKS); }
+  ///@}
+
+  ///@{
+  /** The camera file's pixel coordinates: INTEGER (default) or CORNER; half a pixel apart. */
+  vtkSetClampMacro(PixelFamily, int, INTEGER, CORNER);
+  vtkGetMacro(PixelFamily, int);
+  void SetPixelFamilyToInteger() { this->SetPixelFamily(INTEGER); }
+  void SetPixelFamilyToCorner() { this->SetPixelFamily(CORNER); }
+  ///@}
+
+  /** 1 where `fileName` is a capture's folder or camera file. Opens no image. */
+  static int CanReadFile(VTK_FILEPATH const char* fileName);
+
+  /** The second output: the cameras. */
+  vtkPolyData* GetCamerasOutput();
+
+protected:
+  vtkSilhouetteCaptureReader();
+  ~vtkSilhouetteCaptureReader() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  char* FileName = nullptr;
+  char* Views = nullptr;
+  int ImageChoice = MASKS_WHERE_PRESENT;
+  int PixelFamily = INTEGER;
+
+private:
+  vtkSilhouetteCaptureReader(const vtkSilhouetteCaptureReader&) = delete;
+  void operator=(const vtkSilhouetteCaptureReader&) = delete;
+};
+
+#endif

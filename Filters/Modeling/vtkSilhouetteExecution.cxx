@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSilhouetteExecution.h"
+
+#include "PreparedViewsSharing.h"
+#include "vtkSilhouetteCompatibility.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkSMPTools.h"
+
+#include <algorithm>
+#include <new>
+
+vtkSilhouetteExecution::vtkSilhouetteExecution(vtkAlgorithm* filter)
+  : Filter(filter)
+  , Caller(std::this_thread::get_id())
+{
+}
+
+void vtkSilhouetteExecution::forRanges(std::size_t count, std::size_t grain, const Range& work)
+{
+  if (count == 0)
+  {
+    return;
+  }
+  const auto range = [&work](vtkIdType first, vtkIdType last)
+  { work(static_cast<std::size_t>(first), static_cast<std::size_t>(last)); };
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(std::max<std::size_t>(grain, 1)), range);
+}
+
+int vtkSilhouetteExecution::threads() const
+{
+  return std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads());
+}
+
+bool vtkSilhouetteExecution::cancelled() const
+{
+  return silhouette::modeling::abortRequested(this->Filter);
+}
+
+void vtkSilhouetteExecution::progress(double fraction)
+{
+  // Observers may do anything, drawing included: they are called from the pipeline's own thread or not at all.
+  if (std::this_thread::get_id() != this->Caller)
+  {
+    return;
+  }
+  this->Last = std::max(this->Last, std::min(fraction, 1.0));
+  this->Filter->UpdateProgress(this->Last);
+}
+
+namespace silhouette::modeling
+{
+namespace
+{
+
+void emptyOutputs(vtkInformationVector* outputs, int port)
+{
+  for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkDataObject* data = vtkDataObject::GetData(outputs, i);
+    if (data && (port < 0 || port == i))
+    {
+      data->Initialize();
+      forgetPreparedViews(data);
+    }
+  }
+}
+
+int fail(vtkAlgorithm* filter, vtkInformationVector* outputs, int port, const std::string& message)
+{
+  emptyOutputs(outputs, port);
+  vtkErrorWithObjectMacro(filter, << message);
+  return 0;
+}
+
+} // namespace
+
+int runFilter(vtkAlgorithm* filter, vtkInformationVector* outputs,
+  const std::function<void(vtkSilhouetteExecution&)>& work, int port)
+{
+  try
+  {
+    vtkSilhouetteExecution execution(filter);
+    work(execution);
+    // Asked to stop too late for the core to notice: the promise of an empty output holds all the same.
+    if (execution.cancelled())
+    {
+      throw Cancelled();
+    }
+    return 1;
+  }
+  catch (const Cancelled&)
+  {
+    emptyOutputs(outputs, port);
+    return 1;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return fail(filter, outputs, port, "not enough memory; a smaller depth needs less");
+  }
+  catch (const std::exception& error)
+  {
+    return fail(filter, outputs, port, error.what());
+  }
+}
+
+} // namespace silhouette::modeling

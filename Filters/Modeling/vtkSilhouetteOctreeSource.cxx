@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSilhouetteOctreeSource.h"
+
+#include "AutomaticBounds.h"
+#include "Carving.h"
+#include "CarvingSetup.h"
+#include "OctreeConversion.h"
+#include "PreparedViewsSharing.h"
+#include "ViewConversion.h"
+#include "vtkSilhouetteExecution.h"
+
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkHyperTreeGrid.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
+
+#include <algorithm>
+
+using namespace silhouette::modeling;
+
+class vtkSilhouetteOctreeSource::vtkInternals
+{
+public:
+  std::vector<ImageView> Added;
+
+  /** The views of the input, then those added. */
+  std::vector<ImageView> views(vtkPartitionedDataSetCollection* input) const
+  {
+    std::vector<ImageView> all = imageViews(input);
+    all.insert(all.end(), this->Added.begin(), this->Added.end());
+    return all;
+  }
+
+  /** The same, made ready; what travels with the input is taken where it is all there is. */
+  SharedViews prepare(vtkPartitionedDataSetCollection* input, const silhouette::ViewOptions& options,
+    silhouette::Execution& execution) const
+  {
+    return this->Added.empty()
+      ? preparedViews(input, options, execution)
+      : std::make_shared<const silhouette::PreparedViews>(silhouetteViews(this->views(input)), options, execution);
+  }
+};
+
+vtkStandardNewMacro(vtkSilhouetteOctreeSource);
+
+vtkSilhouetteOctreeSource::vtkSilhouetteOctreeSource()
+  : Depth(silhouette::AutomaticBoundsOptions().depth)
+  , BackgroundVotes(silhouette::CarveOptions().backgroundVotes)
+  , OutsidePolicy(static_cast<int>(silhouette::ViewOptions().outside))
+  , Internals(new vtkInternals)
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkSilhouetteOctreeSource::~vtkSilhouetteOctreeSource() = default;
+
+void vtkSilhouetteOctreeSource::AddView(vtkImageData* image, const double p[12], const char* name)
+{
+  if (!image || !p)
+  {
+    vtkErrorMacro("AddView needs an image and a matrix of 12 numbers");
+    return;
+  }
+  ImageView view;
+  view.image = image;
+  view.name = name ? name : "";
+  std::copy_n(p, 12, view.projection.data());
+  this->Internals->Added.push_back(std::move(view));
+  this->Modified();
+}
+
+void vtkSilhouetteOctreeSource::RemoveAllViews()
+{
+  if (!this->Internals->Added.empty())
+  {
+    this->Internals->Added.clear();
+    this->Modified();
+  }
+}
+
+int vtkSilhouetteOctreeSource::GetNumberOfAddedViews()
+{
+  return static_cast<int>(this->Internals->Added.size());
+}
+
+vtkHyperTreeGrid* vtkSilhouetteOctreeSource::GetOutput()
+{
+  return vtkHyperTreeGrid::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+vtkPartitionedDataSetCollection* vtkSilhouetteOctreeSource::GetViewsOutput()
+{
+  return vtkPartitionedDataSetCollection::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+void vtkSilhouetteOctreeSource::SetInputData(vtkPartitionedDataSetCollection* views)
+{
+  this->SetInputDataInternal(0, views);
+}
+
+vtkMTimeType vtkSilhouetteOctreeSource::GetMTime()
+{
+  vtkMTimeType time = this->Superclass::GetMTime();
+  for (const ImageView& view : this->Internals->Added)
+  {
+    time = std::max(time, view.image->GetMTime());
+  }
+  return time;
+}
+
+int vtkSilhouetteOctreeSource::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+int vtkSilhouetteOctreeSource::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkHyperTreeGrid" : "vtkPartitionedDataSetCollection");
+  return 1;
+}
+
+vtkTypeBool vtkSilhouetteOctreeSource::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    return this->RequestData(request, inputs, outputs);
+  }
+  return this->Superclass::ProcessRequest(request, inputs, outputs);
+}
+
+int vtkSilhouetteOctreeSource::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputs[0]);
+  vtkHyperTreeGrid* grid = vtkHyperTreeGrid::GetData(outputs, 0);
+  vtkPartitionedDataSetCollection* viewsOut = vtkPartitionedDataSetCollection::GetData(outputs, 1);
+
+  const auto carveViews = [&](vtkSilhouetteExecution& execution)
+  {
+    silhouette::Phase preparing(execution, 0.0, 0.1);
+    silhouette::ViewOptions viewOptions;
+    viewOptions.outside = static_cast<silhouette::OutsidePolicy>(this->OutsidePolicy);
+    const SharedViews views = this->Internals->prepare(input, viewOptions, preparing);
+
+    silhouette::Phase bounding(execution, 0.1, 0.3);
+    LatticeSettings settings;
+    settings.depth = this->Depth;
+    settings.leafEdge = this->LeafEdge;
+    settings.automaticBounds = this->AutomaticBounds;
+    std::copy_n(this->Bounds, 6, settings.bounds.begin());
+    settings.backgroundVotes = this->BackgroundVotes;
+    const silhouette::Lattice lattice = makeLattice(*views, settings, bounding);
+    // Before carving: where nothing survives, these say why.
+    for (const std::string& warning : viewWarnings(*views, lattice, this->AutomaticBounds))
+    {
+      vtkWarningMacro(<< warning);
+    }
+
+    silhouette::Phase carving(execution, 0.3, 0.95);
+    const silhouette::LatticeViews latticeViews(*views, lattice);
+    silhouette::CarveOptions options;
+    options.backgroundVotes = this->BackgroundVotes;
+    const silhouette::Octree octree = silhouette::carve(latticeViews, options, carving);
+    const std::string cut = cutByBoxWarning(octree, latticeViews);
+    if (!cut.empty())
+    {
+      vtkWarningMacro(<< cut);
+    }
+
+    storeOctree(octree, grid);
+    storeViews(this->Internals->views(input), viewsOut);
+    attachPreparedViews(viewsOut, views);
+    execution.progress(1.0);
+  };
+  return runFilter(this, outputs, carveViews);
+}
+
+void vtkSilhouetteOctreeSource::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const char* const policies[] = { "Border", "Unknown", "Background" };
+  os << indent << "Depth: " << this->Depth << "\n";
+  os << indent << "LeafEdge: " << this->LeafEdge << "\n";
+  os << indent << "AutomaticBounds: " << (this->AutomaticBounds ? "On" : "Off") << "\n";
+  os << indent << "Bounds: (" << this->Bounds[0] << ", " << this->Bounds[1] << ", " << this->Bounds[2] << ", "
+     << this->Bounds[3] << ", " << this->Bounds[4] << ", " << this->Bounds[5] << ")\n";
+  os << indent << "BackgroundVotes: " << this->BackgroundVotes << "\n";
+  os << indent << "OutsidePolicy: " << policies[this->OutsidePolicy] << "\n";
+  os << indent << "AddedViews: " << this->Internals->Added.size() << "\n";
+  for (std::size_t i = 0; i < this->Internals->Added.size(); ++i)
+  {
+    const ImageView& view = this->Internals->Added[i];
+    os << indent.GetNextIndent() << describeView(i, view.name) << ": " << view.image.GetPointer() << ", Projection:";
+    for (int n = 0; n < 12; ++n)
+    {
+      os << " " << view.projection.data()[n];
+    }
+    os << "\n";
+  }
+}

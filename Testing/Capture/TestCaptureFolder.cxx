@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CaptureFolder.h"
+
+#include "CaptureTesting.h"
+
+using namespace silhouette;
+
+namespace
+{
+
+const std::string P = " 1 0 0 0 0 1 0 0 0 0 1 0\n";
+const std::string Krt = " 100 0 50 0 200 60 0 0 1  1 0 0 0 1 0 0 0 1  1 2 3\n";
+
+std::vector<std::string> namesOf(const CaptureDescription& capture)
+{
+  std::vector<std::string> names;
+  for (const CaptureEntry& entry : capture.entries)
+  {
+    names.push_back(entry.name);
+  }
+  return names;
+}
+
+CaptureOptions withViews(const std::string& views)
+{
+  CaptureOptions options;
+  options.views = views;
+  return options;
+}
+
+std::string errorIn(const TemporaryFolder& folder, const CaptureOptions& options = {})
+{
+  return errorOf([&] { describeCapture(folder.path(), options); });
+}
+
+} // namespace
+
+TEST(CaptureFolder, PhotographsInImagesMasksOfEqualStem)
+{
+  const TemporaryFolder folder;
+  folder.write("projections.txt", "a.jpg" + P + "b.jpg" + P + "c.jpg" + P + "d.jpg" + P);
+  for (const char* name : {"a", "b", "c", "d"})
+  {
+    folder.write(std::string("images/") + name + ".jpg");
+  }
+  folder.write("masks/a.png");
+  folder.write("masks/b.jpg.png");
+  folder.write("masks/c.pgm");
+  folder.write("a.jpg"); // images/ goes first
+  const CaptureDescription capture = describeCapture(folder.path());
+  EXPECT_EQ(capture.folder, folder.path());
+  EXPECT_EQ(capture.cameraFile, folder.path() / "projections.txt");
+  EXPECT_EQ(capture.format, "P list");
+  EXPECT_TRUE(capture.freeSign);
+  EXPECT_TRUE(capture.warnings.empty());
+  ASSERT_EQ(capture.entries.size(), 4u);
+  EXPECT_EQ(capture.entries[0].photograph, folder.path() / "images" / "a.jpg");
+  EXPECT_EQ(capture.entries[0].mask, folder.path() / "masks" / "a.png");
+  EXPECT_EQ(capture.entries[1].mask, folder.path() / "masks" / "b.jpg.png");
+  EXPECT_EQ(capture.entries[2].mask, folder.path() / "masks" / "c.pgm");
+  EXPECT_TRUE(capture.entries[3].mask.empty());
+  EXPECT_EQ(capture.entries[3].projection(2, 2), 1.0);
+}
+
+TEST(CaptureFolder, PhotographsBesideTheCameraFile)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("cameras.txt", "a.png" + P + "images/b.png" + P);
+  folder.write("a.png");
+  folder.write("images/b.png");
+  folder.write("masks/b.png");
+  const CaptureDescription capture = describeCapture(file);
+  EXPECT_EQ(capture.cameraFile, file);
+  EXPECT_EQ(capture.entries.at(0).photograph, folder.path() / "a.png");
+  EXPECT_EQ(capture.entries.at(1).photograph, folder.path() / "images" / "b.png");
+  EXPECT_EQ(capture.entries.at(1).mask, folder.path() / "masks" / "b.png");
+  EXPECT_TRUE(capture.warnings.empty());
+}
+
+TEST(CaptureFolder, MasksOnly)
+{
+  const TemporaryFolder folder;
+  folder.write("projections.txt", "a.jpg" + P);
+  folder.write("masks/a.png");
+  const CaptureDescription capture = describeCapture(folder.path());
+  EXPECT_TRUE(capture.entries.at(0).photograph.empty());
+  EXPECT_EQ(capture.entries.at(0).mask, folder.path() / "masks" / "a.png");
+}
+
+TEST(CaptureFolder, MiddleburyAndItsGoodSilhouettes)
+{
+  const TemporaryFolder folder;
+  folder.write("x_par.txt", "3\r\na.png" + Krt + "b.png" + Krt + "c.png" + Krt);
+  for (const char* name : {"a.png", "b.png", "c.png"})
+  {
+    folder.write(name);
+  }
+  EXPECT_EQ(namesOf(describeCapture(folder.path())), (std::vector<std::string>{"a.png", "b.png", "c.png"}));
+  folder.write("x_good_silhouette_images.txt", "c.png\r\na.png\r\n");
+  const CaptureDescription capture = describeCapture(folder.path());
+  EXPECT_EQ(capture.format, "Middlebury");
+  EXPECT_FALSE(capture.freeSign);
+  EXPECT_EQ(namesOf(capture), (std::vector<std::string>{"a.png", "c.png"}));
+  EXPECT_EQ(namesOf(describeCapture(folder.path(), withViews("1-2"))),
+            (std::vector<std::string>{"b.png", "c.png"}));
+  folder.write("x_good_silhouette_images.txt", "a.png\n\nz.png\n");
+  EXPECT_TRUE(
+      holds(errorIn(folder), "x_good_silhouette_images.txt line 3: 'z.png' is not a view of x_par.txt"));
+  folder.write("x_good_silhouette_images.txt", "\n");
+  EXPECT_TRUE(holds(errorIn(folder), "x_good_silhouette_images.txt: names no view"));
+}
+
+TEST(CaptureFolder, CornerFamilyMovesByHalfAPixel)
+{
+  const TemporaryFolder folder;
+  folder.write("x_par.txt", "1\na.png" + Krt);
+  folder.write("a.png");
+  CaptureOptions options;
+  const Projection integer = describeCapture(folder.path(), options).entries.at(0).projection;
+  options.cornerFamily = true;
+  const Projection corner = describeCapture(folder.path(), options).entries.at(0).projection;
+  EXPECT_EQ(integer(0, 2), 50.0);
+  EXPECT_EQ(corner, cornerToInteger(integer));
+}
+
+TEST(CaptureFolder, CameraFileIsLookedFor)
+{
+  const TemporaryFolder folder;
+  EXPECT_TRUE(holds(errorIn(folder),
+                    "no camera file; looked for projections.txt (a P list) and *_par.txt (Middlebury)"));
+  folder.write("b_par.txt", "1\na.png" + Krt);
+  folder.write("a_par.txt", "1\na.png" + Krt);
+  EXPECT_TRUE(
+      holds(errorIn(folder), "several of *_par.txt (a_par.txt, b_par.txt); give the camera file itself"));
+  folder.write("a.png");
+  EXPECT_EQ(describeCapture(folder.path() / "b_par.txt").entries.size(), 1u);
+  folder.write("projections.txt", "a.png" + P);
+  EXPECT_EQ(describeCapture(folder.path()).format, "P list");
+  EXPECT_TRUE(holds(errorOf([&] { describeCapture(folder.path() / "none"); }),
+                    "none: there is no such folder or camera file"));
+}
+
+TEST(CaptureFolder, MissingImages)
+{
+  const TemporaryFolder folder;
+  folder.write("projections.txt", "a.png" + P + "b.png" + P);
+  folder.write("images/a.png");
+  const std::string error = errorIn(folder);
+  EXPECT_TRUE(holds(error, "projections.txt line 2: image 'b.png' is missing"));
+  EXPECT_TRUE(holds(error, folder.path().string()));
+  EXPECT_EQ(namesOf(describeCapture(folder.path(), withViews("a"))), std::vector<std::string>{"a.png"})
+      << "views that are not used need no image";
+  std::filesystem::create_directories(folder.path() / "images" / "b.png");
+  EXPECT_TRUE(holds(errorIn(folder), "'b.png' is missing")) << "a folder is no image";
+}
+
+TEST(CaptureFolder, SharedMasksAndRank)
+{
+  const TemporaryFolder folder;
+  folder.write("projections.txt", "a.png" + P + "a.jpg" + P);
+  folder.write("a.png");
+  folder.write("a.jpg");
+  folder.write("masks/a.bmp");
+  EXPECT_TRUE(holds(errorIn(folder), "a.bmp: would be the mask of both view 'a.png' and view 'a.jpg'"));
+  folder.write("projections.txt", "a.png" + P + "a.jpg 1 0 0 0 2 0 0 0 0 0 1 0");
+  EXPECT_TRUE(holds(errorIn(folder),
+                    "projections.txt line 2: the projection of view 'a.jpg' has rank 2; a camera needs 3"));
+}
+
+TEST(CaptureFolder, ImagesThatNoLineNames)
+{
+  const TemporaryFolder folder;
+  folder.write("projections.txt", "a.png" + P + "images/b.png" + P);
+  folder.write("images/a.png");
+  folder.write("images/b.png");
+  folder.write("images/readme.txt");
+  EXPECT_TRUE(describeCapture(folder.path(), withViews("0")).warnings.empty());
+  folder.write("images/z.JPG");
+  auto warnings = describeCapture(folder.path()).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(holds(warnings[0], "1 image is not named in projections.txt and not used: 'z.JPG'"));
+  folder.write("images/y.png");
+  warnings = describeCapture(folder.path()).warnings;
+  ASSERT_EQ(warnings.size(), 1u) << "one for a capture";
+  EXPECT_TRUE(
+      holds(warnings[0], "2 images are not named in projections.txt and not used: 'y.png' and others"));
+}
+
+TEST(CaptureFolder, SeveralListsOfGoodSilhouettes)
+{
+  const TemporaryFolder folder;
+  folder.write("projections.txt", "a.png" + P);
+  folder.write("a.png");
+  folder.write("p_good_silhouette_images.txt", "a.png");
+  EXPECT_EQ(describeCapture(folder.path()).entries.size(), 1u);
+  folder.write("q_good_silhouette_images.txt", "a.png");
+  EXPECT_TRUE(
+      holds(errorIn(folder), "several of *_good_silhouette_images.txt (p_good_silhouette_images.txt, q_"));
+  EXPECT_EQ(describeCapture(folder.path(), withViews("0")).entries.size(), 1u);
+}
+
+TEST(CaptureFolder, RealRing)
+{
+  const auto folder = realCapture("middlebury-dino-sparse-ring");
+  SKIP_WITHOUT(folder);
+  const CaptureDescription capture = describeCapture(folder);
+  EXPECT_EQ(capture.entries.size(), 15u);
+  for (const std::string& name : namesOf(capture))
+  {
+    EXPECT_NE(name, "dinoSR0006.png");
+  }
+  EXPECT_EQ(describeCapture(folder, withViews("0-15")).entries.size(), 16u);
+  EXPECT_TRUE(capture.warnings.empty());
+  // The middle of the published tight box falls well inside every image.
+  const Eigen::Vector4d middle(-0.0255, 0.0246765, -0.021175, 1.0);
+  for (const CaptureEntry& entry : capture.entries)
+  {
+    const Vector3 h = entry.projection * middle;
+    EXPECT_GT(h.z(), 0.0);
+    EXPECT_NEAR(h.x() / h.z(), 320, 160);
+    EXPECT_NEAR(h.y() / h.z(), 240, 120);
+  }
+}
+
+TEST(CaptureFolder, RealTurntable)
+{
+  const auto folder = realCapture("vgg-dinosaur");
+  SKIP_WITHOUT(folder);
+  const CaptureDescription capture = describeCapture(folder);
+  EXPECT_EQ(capture.entries.size(), 36u);
+  EXPECT_EQ(capture.entries[35].name, "viff.035.png");
+  EXPECT_EQ(capture.entries[35].photograph, folder / "viff.035.png");
+  EXPECT_EQ(capture.entries[0].projection(0, 0), 3.9923568756416135);
+  EXPECT_EQ(capture.entries[0].projection(2, 3), 0.012249358697517865);
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoxTree.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <set>
+
+using namespace silhouette;
+
+namespace
+{
+
+std::vector<Box> randomBoxes(int count, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> place(0, 40), size(0, 4); // whole numbers: many touch, many coincide
+  std::vector<Box> boxes;
+  for (int i = 0; i < count; ++i)
+  {
+    const Eigen::Vector3d low(place(random), place(random), place(random));
+    boxes.emplace_back(low, low + Eigen::Vector3d(size(random), size(random), size(random)));
+  }
+  return boxes;
+}
+
+} // namespace
+
+TEST(BoxTree, OverlappingEqualsAll)
+{
+  const std::vector<Box> boxes = randomBoxes(700, 1);
+  const BoxTree tree(boxes);
+  for (const Box& query : randomBoxes(100, 2))
+  {
+    std::multiset<int> expected, found;
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+    {
+      if (boxes[i].intersects(query))
+      {
+        expected.insert(int(i));
+      }
+    }
+    tree.overlapping(query, [&](std::int32_t i) { found.insert(i); });
+    ASSERT_EQ(found, expected);
+  }
+}
+
+TEST(BoxTree, PairsEqualAllPairs)
+{
+  const std::vector<Box> boxes = randomBoxes(700, 3);
+  const BoxTree tree(boxes);
+  std::multiset<std::pair<int, int>> expected, found;
+  for (int i = 0; i < 700; ++i)
+  {
+    for (int j = i + 1; j < 700; ++j)
+    {
+      if (boxes[i].intersects(boxes[j]))
+      {
+        expected.insert({ i, j });
+      }
+    }
+  }
+  for (std::size_t leaf = 0; leaf < tree.leafCount(); ++leaf)
+  {
+    tree.overlappingPairs(leaf, [&](std::int32_t i, std::int32_t j) { found.insert(std::minmax(i, j)); });
+  }
+  EXPECT_EQ(found, expected);
+  EXPECT_GT(found.size(), 100u);
+}
+
+TEST(BoxTree, NearestEqualsLeast)
+{
+  const std::vector<Box> boxes = randomBoxes(700, 4);
+  const BoxTree tree(boxes);
+  std::size_t asked = 0;
+  for (const Box& query : randomBoxes(100, 5))
+  {
+    const Eigen::Vector3d point = 1.5 * query.min() - Eigen::Vector3d(10, 10, 10);
+    double expected = std::numeric_limits<double>::infinity();
+    for (const Box& box : boxes)
+    {
+      expected = std::min(expected, (box.center() - point).squaredNorm());
+    }
+    const double found = tree.nearest(point,
+      [&](std::int32_t i)
+      {
+        ++asked;
+        return (boxes[i].center() - point).squaredNorm();
+      });
+    ASSERT_EQ(found, expected);
+  }
+  EXPECT_LT(asked, 100u * 700u / 4);
+}
+
+TEST(BoxTree, Empty)
+{
+  const BoxTree tree({});
+  EXPECT_EQ(tree.leafCount(), 0u);
+  tree.overlapping(Box(Eigen::Vector3d(0, 0, 0)), [](std::int32_t) { FAIL(); });
+  EXPECT_EQ(tree.nearest({ 0, 0, 0 }, [](std::int32_t) { return 0.0; }), std::numeric_limits<double>::infinity());
+}
+
+TEST(BoxTree, AThousandBoxesInOnePlace)
+{
+  const BoxTree tree(std::vector<Box>(1000, Box(Eigen::Vector3d(1, 2, 3))));
+  int found = 0;
+  tree.overlapping(Box(Eigen::Vector3d(1, 2, 3)), [&](std::int32_t) { ++found; });
+  EXPECT_EQ(found, 1000);
+}

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SyntheticShapes.h"
+
+#include "Error.h"
+#include "SelfIntersections.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+using namespace silhouette;
+
+namespace
+{
+
+constexpr double Pi = 3.14159265358979323846;
+
+struct Topology
+{
+  bool closed = true;         ///< every half-edge once, and its opposite once
+  bool vertexManifold = true; ///< the triangles round each point make one fan
+  int components = 0;
+  long euler = 0;
+};
+
+Topology topologyOf(const Mesh& mesh)
+{
+  Topology result;
+  std::vector<std::array<std::int32_t, 2>> halfEdges;
+  std::vector<std::int32_t> parent(mesh.points.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  std::vector<std::array<std::int32_t, 3>> fans; // point, neighbour, next neighbour
+  const auto root = [&](std::int32_t i) {
+    while (parent[i] != i)
+    {
+      i = parent[i] = parent[parent[i]];
+    }
+    return i;
+  };
+  for (const Triangle& t : mesh.triangles)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      halfEdges.push_back({ t[c], t[(c + 1) % 3] });
+      parent[root(t[c])] = root(t[(c + 1) % 3]);
+      fans.push_back({ t[c], t[(c + 1) % 3], t[(c + 2) % 3] });
+    }
+  }
+  std::sort(halfEdges.begin(), halfEdges.end());
+  result.closed = std::adjacent_find(halfEdges.begin(), halfEdges.end()) == halfEdges.end();
+  for (const auto& h : halfEdges)
+  {
+    const std::array<std::int32_t, 2> opposite = { h[1], h[0] };
+    result.closed = result.closed && std::binary_search(halfEdges.begin(), halfEdges.end(), opposite);
+  }
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    result.components += root(std::int32_t(i)) == std::int32_t(i) ? 1 : 0;
+  }
+  std::sort(fans.begin(), fans.end());
+  for (auto first = fans.begin(); first != fans.end();)
+  {
+    const auto last = std::find_if(first, fans.end(), [&](const auto& f) { return f[0] != (*first)[0]; });
+    auto at = first;
+    std::ptrdiff_t steps = 0;
+    do
+    {
+      at = std::find_if(first, last, [&](const auto& f) { return f[1] == (*at)[2]; });
+      ++steps;
+    } while (at != last && at != first && steps <= last - first);
+    result.vertexManifold = result.vertexManifold && at == first && steps == last - first;
+    first = last;
+  }
+  result.euler = long(mesh.points.size()) - long(halfEdges.size() / 2) + long(mesh.triangles.size());
+  return result;
+}
+
+double volume(const Mesh& mesh)
+{
+  double sum = 0.0;
+  for (const Triangle& t : mesh.triangles)
+  {
+    sum += mesh.points[t[0]].dot(mesh.points[t[1]].cross(mesh.points[t[2]])) / 6.0;
+  }
+  return sum;
+}
+
+/** Number of times that the line from `origin` along `direction` passes through the mesh. */
+int crossings(const Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)
+{
+  int count = 0;
+  for (const Triangle& t : mesh.triangles)
+  {
+    int positive = 0;
+    for (int c = 0; c < 3; ++c)
+    {
+      const Eigen::Vector3d a = mesh.points[t[c]] - origin;
+      const Eigen::Vector3d b = mesh.points[t[(c + 1) % 3]] - origin;
+      positive += direction.dot(a.cross(b)) > 0.0 ? 1 : 0;
+    }
+    count += positive % 3 == 0 ? 1 : 0;
+  }
+  return count;
+}
+
+void expectSound(const Mesh& mesh, long genus)
+{
+  const Topology topology = topologyOf(mesh);
+  EXPECT_TRUE(topology.closed);
+  EXPECT_TRUE(topology.vertexManifold);
+  EXPECT_EQ(topology.components, 1);
+  EXPECT_EQ(topology.euler, 2 - 2 * genus);
+  EXPECT_GT(volume(mesh), 0.0);
+  Execution execution;
+  EXPECT_TRUE(selfIntersections(mesh, execution).empty());
+
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : mesh.points)
+  {
+    box.extend(p);
+  }
+  const double reach = std::max(-box.min().minCoeff(), box.max().maxCoeff());
+  EXPECT_LT(reach, 0.98);
+  EXPECT_GT(reach, 0.8);
+}
+
+TEST(SyntheticShapes, sphere)
+{
+  const Mesh mesh = syntheticShape(SyntheticShape::Sphere);
+  expectSound(mesh, 0);
+  const double exact = 4.0 / 3.0 * Pi * std::pow(sphereRadius, 3);
+  EXPECT_LT(volume(mesh), exact);
+  EXPECT_GT(volume(mesh), exact * (1.0 - 3e-4));
+  for (const Triangle& t : mesh.triangles)
+  {
+    const Eigen::Vector3d middle = (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) / 3.0;
+    EXPECT_GT(middle.norm(), sphereRadius - 0.1 * 2.0 / 512.0);
+  }
+  for (const Eigen::Vector3d& p : mesh.points)
+  {
+    EXPECT_NEAR(p.norm(), sphereRadius, 1e-12);
+  }
+}
+
+TEST(SyntheticShapes, torus)
+{
+  const Mesh mesh = syntheticShape(SyntheticShape::Torus);
+  expectSound(mesh, 1);
+  EXPECT_NEAR(torusAxis().norm(), 1.0, 1e-12);
+  EXPECT_NEAR(volume(mesh), 2.0 * Pi * Pi * torusRingRadius * torusTubeRadius * torusTubeRadius, 3e-4);
+  const auto distance = [](const Eigen::Vector3d& p) {
+    const double along = p.dot(torusAxis());
+    const double outward = (p - along * torusAxis()).norm() - torusRingRadius;
+    return std::hypot(outward, along) - torusTubeRadius;
+  };
+  for (const Triangle& t : mesh.triangles)
+  {
+    EXPECT_NEAR(distance(mesh.points[t[0]]), 0.0, 1e-12);
+    const Eigen::Vector3d middle = (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) / 3.0;
+    EXPECT_NEAR(distance(middle), 0.0, 0.1 * 2.0 / 512.0);
+  }
+}
+
+TEST(SyntheticShapes, jugHasAHandleAndAnOpenMouth)
+{
+  const Mesh mesh = syntheticShape(SyntheticShape::Jug);
+  expectSound(mesh, 1);
+  const Eigen::Vector3d bodyCentre(0.001, 0.002, -0.2);
+  EXPECT_EQ(crossings(mesh, bodyCentre, Eigen::Vector3d::UnitZ()), 2);  // the floor alone
+  EXPECT_EQ(crossings(mesh, bodyCentre, Eigen::Vector3d::UnitY()), 4);  // two walls
+  EXPECT_EQ(crossings(mesh, { 0.0, 0.002, 0.5 }, Eigen::Vector3d::UnitX()), 6); // two walls and the handle
+  EXPECT_EQ(crossings(mesh, { -0.55, 0.0, 0.4 }, Eigen::Vector3d::UnitY()), 0); // through the handle
+  Eigen::Vector3d spout = mesh.points[0];
+  for (const Eigen::Vector3d& p : mesh.points)
+  {
+    spout = p.z() > spout.z() ? p : spout;
+  }
+  EXPECT_GT(spout.x(), 0.4);
+}
+
+TEST(SyntheticShapes, twigIsThinnerThanAnOctantOfDepth7)
+{
+  const Mesh mesh = syntheticShape(SyntheticShape::Twig);
+  expectSound(mesh, 0);
+  // A tube of diameter d has 4 / d of surface for each unit of volume; forks have less.
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles)
+  {
+    area += 0.5 * (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]).norm();
+  }
+  const double diameter = 4.0 * volume(mesh) / area;
+  EXPECT_GT(diameter, 0.010);
+  EXPECT_LT(diameter, 0.014);
+}
+
+TEST(SyntheticShapes, refinementMultipliesTheFaces)
+{
+  SyntheticShapeOptions coarse;
+  coarse.refinement = 0.5;
+  for (const SyntheticShape shape :
+    { SyntheticShape::Jug, SyntheticShape::Sphere, SyntheticShape::Torus, SyntheticShape::Twig })
+  {
+    const Mesh mesh = syntheticShape(shape, coarse);
+    const Topology topology = topologyOf(mesh);
+    EXPECT_TRUE(topology.closed && topology.vertexManifold && topology.components == 1) << int(shape);
+    const bool hasHole = shape == SyntheticShape::Jug || shape == SyntheticShape::Torus;
+    EXPECT_EQ(topology.euler, hasHole ? 0 : 2) << int(shape);
+  }
+  const double ratio = double(syntheticShape(SyntheticShape::Sphere).triangles.size()) /
+    double(syntheticShape(SyntheticShape::Sphere, coarse).triangles.size());
+  EXPECT_EQ(ratio, 4.0);
+}
+
+TEST(SyntheticShapes, refusesWhatItDoesNotKnow)
+{
+  for (const double refinement : { 0.4, 5.0, std::numeric_limits<double>::quiet_NaN() })
+  {
+    SyntheticShapeOptions options;
+    options.refinement = refinement;
+    EXPECT_THROW(syntheticShape(SyntheticShape::Sphere, options), InvalidInput);
+  }
+  EXPECT_THROW(syntheticShape(SyntheticShape(17)), InvalidInput);
+}
+
+} // namespace

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Closed meshes from silhouettes, as VTK filters.
+
+    import vtksilhouette
+    source = vtksilhouette.vtkSilhouetteOctreeSource()   # views in, octree out
+    cubes = vtksilhouette.vtkVotingMarchingCubes()       # octree and views in, surface out
+    hulls = vtksilhouette.vtkLocalHullSurfacer()         # surface, octree and views in, closed surface out
+
+The classes work like VTK's own (SetInputConnection, Update, GetOutput);
+help(vtksilhouette.vtkLocalHullSurfacer) says what each does.
+
+vtksilhouette.numpy_front   numpy masks in, numpy mesh out, without VTK in sight: reconstruct() and octree()
+vtksilhouette.offscreen     rendering without a display: python3 -m vtksilhouette.offscreen SCRIPT
+"""
+
+# VTK's classes that ours derive from must be known to Python first.
+import vtkmodules.vtkCommonExecutionModel  # noqa: F401
+
+try:
+    from .vtkSilhouetteFiltersModeling import *  # noqa: F401,F403
+except ModuleNotFoundError as error:
+    # A build of the off-screen window alone is still of use; any other missing module is a real error.
+    if error.name != __name__ + ".vtkSilhouetteFiltersModeling":
+        raise
+
+__all__ = ["numpy_front", "offscreen"]
+__all__ += sorted(name for name in globals() if name.startswith("vtk") and isinstance(globals()[name], type))

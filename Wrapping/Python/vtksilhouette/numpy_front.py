@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numpy silhouettes in, a numpy mesh out.
+
+    from vtksilhouette.numpy_front import reconstruct
+
+    points, triangles = reconstruct(masks, projections, depth=8)
+
+A mask is a 2-D array, True (or above 127) where a pixel shows the object, row 0 at the TOP, as imageio,
+OpenCV and matplotlib load pictures. Its projection P is the camera's 3 x 4 matrix: w (u, v, 1) = P (X, Y, Z,
+1), u to the right, v down, in pixels, the centre of the top-left pixel at (0, 0), w > 0 for points in front
+of the camera. The mesh is in the unit of (X, Y, Z).
+
+These functions run the filters vtkSilhouetteOctreeSource, vtkVotingMarchingCubes and vtkLocalHullSurfacer;
+who needs more of their options, their counts or a pipeline uses them directly.
+"""
+
+import math
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+
+from .vtkSilhouetteFiltersModeling import (
+    vtkLocalHullSurfacer,
+    vtkSilhouetteOctreeSource,
+    vtkVotingMarchingCubes,
+)
+
+__all__ = ["Octree", "octree", "reconstruct"]
+
+SURFACES = ("local-hull", "voting", "marching-cubes")
+_OUTSIDE = {
+    "border": vtkSilhouetteOctreeSource.BORDER,
+    "unknown": vtkSilhouetteOctreeSource.UNKNOWN,
+    "background": vtkSilhouetteOctreeSource.BACKGROUND,
+}
+_EDGES = {"exact": vtkVotingMarchingCubes.EXACT, "middle": vtkVotingMarchingCubes.MIDDLE}
+
+
+@dataclass(frozen=True)
+class Octree:
+    """Octants that the silhouettes did not carve away.
+
+    states       (n,) uint8: 1 intersection (some silhouette's border passes), 2 inside (object in all views)
+    generations  (n,) uint8: subdivisions of the root cube; an octant's edge is edge / 2 ** generation
+    coordinates  (n, 3) int64: the octant's place among the 2 ** generation octants along each axis
+    origin       (3,) float64: the root cube's corner of least coordinates
+    edge         float: the root cube's edge
+    depth        int: the last generation
+
+    Octants do not overlap: inside octants of any generation, and intersection octants of the last.
+    """
+
+    states: np.ndarray
+    generations: np.ndarray
+    coordinates: np.ndarray
+    origin: np.ndarray
+    edge: float
+    depth: int
+
+    def edges(self):
+        """Edge length of each octant, (n,) float64."""
+        return self.edge * np.exp2(-self.generations.astype(np.float64))
+
+    def centres(self):
+        """Centre of each octant, (n, 3) float64."""
+        return self.origin + (self.coordinates + 0.5) * self.edges()[:, np.newaxis]
+
+    def volume(self):
+        """Volume of all octants together: an upper bound of the visual hull's."""
+        return float(np.sum(self.edges() ** 3))
+
+
+def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", vote_share=1.0,
+                outside="border", edges="exact", names=None):
+    """Reconstructs the mesh of an object from silhouettes.
+
+    masks        sequence of m 2-D arrays, row 0 at the top; they may differ in size. Object is True, or
+                 above 127, or not 0 where the largest value is 1
+    projections  (m, 3, 4) array: the camera of each mask
+    depth        1 to 16: subdivisions of the cube around the object. One more halves the triangles' edges,
+                 and takes about four times the time and memory
+    bounds       (xmin, xmax, ymin, ymax, zmin, zmax) around the object; None finds them from the silhouettes
+    surface      "local-hull" (default): closed, manifold, free of self-intersections, with no thin part lost;
+                 "voting": marching cubes with the views' votes; "marching-cubes": the same with all views
+    vote_share   above 0 to 1: the share of the views that must call a point inside. Below 1, single wrong
+                 silhouettes are outvoted, and the object grows
+    outside      what a view says beyond its image: "border" (nothing beyond a side that the object touches,
+                 else background), "unknown" or "background"
+    edges        where the surface crosses an edge of the grid: "exact", or in its "middle"
+    names        sequence of m names of the views, for messages; None numbers them
+
+    Returns (points, triangles): (n, 3) float64 and (k, 3) int64 indices into points, counter-clockwise seen
+    from outside.
+
+    Raises TypeError or ValueError where an argument does not fit, and RuntimeError with the filter's message
+    where the views give no object: nothing survives the carving (the message names the view), or they do not
+    bound it. What is doubtful but not fatal comes as a RuntimeWarning.
+
+        >>> points, triangles = reconstruct(masks, projections, depth=7)
+        >>> trimesh.Trimesh(points, triangles).export("object.ply")
+    """
+    if surface not in SURFACES:
+        raise ValueError(f"surface is {surface!r}, it is one of {', '.join(SURFACES)}")
+    if surface == "marching-cubes" and vote_share != 1.0:
+        raise ValueError(f"surface 'marching-cubes' asks all views, vote_share {vote_share} needs 'voting' "
+                         "or 'local-hull'")
+    source = _octree_source(masks, projections, depth, bounds, vote_share, outside, names)
+
+    cubes = vtkVotingMarchingCubes()
+    cubes.SetInputConnection(0, source.GetOutputPort(0))
+    cubes.SetInputConnection(1, source.GetOutputPort(1))
+    cubes.SetShare(float(vote_share))
+    cubes.SetEdgePlacement(_choice("edges", edges, _EDGES))
+    filters = [source, cubes]
+    if surface == "local-hull":
+        hulls = vtkLocalHullSurfacer()
+        hulls.SetInputConnection(0, cubes.GetOutputPort(0))
+        hulls.SetInputConnection(1, source.GetOutputPort(0))
+        hulls.SetInputConnection(2, source.GetOutputPort(1))
+        filters.append(hulls)
+    _update(filters)
+
+    mesh = filters[-1].GetOutput()
+    if mesh.GetNumberOfPoints() == 0:
+        return np.empty((0, 3), np.float64), np.empty((0, 3), np.int64)
+    points = vtk_to_numpy(mesh.GetPoints().GetData()).astype(np.float64)
+    triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).astype(np.int64).reshape(-1, 3)
+    return points, triangles
+
+
+def octree(masks, projections, depth=8, bounds=None, vote_share=1.0, outside="border", names=None):
+    """Carves the octree of silhouettes; the arguments are those of reconstruct().
+
+    Returns an Octree: the octants that survived, with their centres and edge lengths.
+
+        >>> tree = octree(masks, projections, depth=6)
+        >>> solid = tree.centres()[tree.states == 2]
+    """
+    source = _octree_source(masks, projections, depth, bounds, vote_share, outside, names)
+    _update([source])
+    grid = source.GetOutput()
+    cells = grid.GetCellData()
+    states = vtk_to_numpy(cells.GetArray("State"))
+    generations = vtk_to_numpy(cells.GetArray("Generation"))
+    codes = vtk_to_numpy(cells.GetArray("LatticeCode")).astype(np.uint64)
+    fields = grid.GetFieldData()
+    reached = int(fields.GetArray("Depth").GetTuple1(0))
+    root = vtk_to_numpy(fields.GetArray("RootCube")).astype(np.float64).ravel()
+
+    kept = (states == 2) | ((states == 1) & (generations == reached))
+    coordinates = np.stack([_every_third_bit(codes[kept] >> np.uint64(axis)) for axis in range(3)], axis=1)
+    return Octree(states[kept], generations[kept], coordinates, root[:3].copy(), float(root[3]), reached)
+
+
+def _octree_source(masks, projections, depth, bounds, vote_share, outside, names):
+    """The source with its views and parameters, not yet run."""
+    images = [_image(mask, view) for view, mask in enumerate(masks)]
+    matrices = _matrices(projections, len(images))
+    if names is not None and len(names) != len(images):
+        raise ValueError(f"{len(images)} masks, but {len(names)} names")
+    if not 0.0 < vote_share <= 1.0:
+        raise ValueError(f"vote_share is {vote_share}, it is above 0 and at most 1")
+
+    source = vtkSilhouetteOctreeSource()
+    for view, (image, matrix) in enumerate(zip(images, matrices)):
+        source.AddView(image, matrix.ravel().tolist(), str(names[view]) if names is not None else None)
+    source.SetDepth(int(depth))
+    source.SetBackgroundVotes(len(images) - math.ceil(vote_share * len(images) - 1e-9))
+    source.SetOutsidePolicy(_choice("outside", outside, _OUTSIDE))
+    if bounds is not None:
+        box = np.asarray(bounds, np.float64).ravel()
+        if box.shape != (6,) or not np.all(box[0::2] < box[1::2]):
+            raise ValueError(f"bounds are {bounds!r}, they are xmin < xmax, ymin < ymax, zmin < zmax")
+        source.AutomaticBoundsOff()
+        source.SetBounds(*box.tolist())
+    return source
+
+
+def _image(mask, view):
+    """A mask as VTK holds images: the bottom row first."""
+    array = np.asarray(mask)
+    if array.ndim != 2 or array.size == 0:
+        raise ValueError(f"mask {view} has shape {array.shape}, it is a 2-D array (rows, columns)")
+    if array.dtype == np.bool_:
+        array = array.astype(np.uint8) * np.uint8(255)
+    elif np.issubdtype(array.dtype, np.integer):
+        if array.min() < 0 or array.max() > 255:
+            raise ValueError(f"mask {view} has values from {array.min()} to {array.max()}, "
+                             "integers are 0 to 255")
+        array = array.astype(np.uint8)
+    else:
+        raise TypeError(f"mask {view} has dtype {array.dtype}, it is bool or integer: say what is object, "
+                        "as in 'mask > 0.5'")
+    rows, columns = array.shape
+    image = vtkImageData()
+    image.SetDimensions(columns, rows, 1)
+    scalars = numpy_to_vtk(np.ascontiguousarray(array[::-1]).ravel(), deep=True)
+    scalars.SetName("Silhouette")
+    image.GetPointData().SetScalars(scalars)
+    return image
+
+
+def _matrices(projections, count):
+    """The projections as one (count, 3, 4) array of finite numbers."""
+    matrices = np.asarray(projections, np.float64)
+    if matrices.shape != (count, 3, 4):
+        raise ValueError(f"{count} masks need projections of shape ({count}, 3, 4), not {matrices.shape}")
+    for view, matrix in enumerate(matrices):
+        if not np.all(np.isfinite(matrix)):
+            raise ValueError(f"projection {view} is not finite: {matrix.tolist()}")
+    return matrices
+
+
+def _choice(name, value, choices):
+    if value not in choices:
+        raise ValueError(f"{name} is {value!r}, it is one of {', '.join(choices)}")
+    return choices[value]
+
+
+def _every_third_bit(codes):
+    """Bits 0, 3, 6, ... of each code, moved together: one coordinate of a Morton code."""
+    coordinates = np.zeros(codes.shape, np.int64)
+    for bit in range(21):
+        coordinates |= ((codes >> np.uint64(3 * bit)) & np.uint64(1)).astype(np.int64) << bit
+    return coordinates
+
+
+def _update(filters):
+    """Updates the last of the filters; the first error of any of them becomes a RuntimeError."""
+    errors = []
+    doubts = []
+
+    def note_error(caller, event, text):
+        errors.append(_message(text))
+
+    def note_warning(caller, event, text):
+        doubts.append(_message(text))
+
+    note_error.CallDataType = "string0"
+    note_warning.CallDataType = "string0"
+    observed = []
+    for each in filters:
+        # The executive speaks up after a filter has failed; unheard, it would write to the console.
+        for speaker in (each, each.GetExecutive()):
+            observed.append((speaker, speaker.AddObserver("ErrorEvent", note_error)))
+            observed.append((speaker, speaker.AddObserver("WarningEvent", note_warning)))
+    try:
+        filters[-1].Update()
+    finally:
+        for speaker, tag in observed:
+            speaker.RemoveObserver(tag)
+    for doubt in doubts:
+        warnings.warn(doubt, RuntimeWarning, stacklevel=3)
+    if errors:
+        raise RuntimeError(errors[0])
+
+
+def _message(text):
+    """VTK's text without where in the source it was raised: 'ERROR: In FILE, line N\\nCLASS (0x0): TEXT'."""
+    body = text.split("\n", 1)[-1].strip()
+    return body.split("): ", 1)[-1]
