@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * A balanced binary tree of boxes: which boxes overlap, which item is nearest? Built by median splits along the
- * longest side of the centres' box; items of equal centre are split by index, so that the tree depends on the
- * boxes alone.
+ * A balanced binary tree of boxes: which boxes overlap, which item is nearest? Built by median splits along
+ * the longest side of the centres' box; items of equal centre are split by index, so that the tree depends on
+ * the boxes alone.
  *
  * Cost: n log n to build (about 0.3 s for a million boxes), 120 bytes a box; a query log n and its answers.
  */
@@ -84,8 +84,8 @@ public:
   }
 
   /**
-   * The least of squaredDistance(i) over all items, given that none is below the squared distance of `point` to
-   * box i; infinity for no items. Items that cannot be nearest are not asked.
+   * The least of squaredDistance(i) over all items, given that none is below the squared distance of `point`
+   * to box i; infinity for no items. Items that cannot be nearest are not asked.
    */
   template <typename SquaredDistance>
   double nearest(const Eigen::Vector3d& point, SquaredDistance&& squaredDistance) const;

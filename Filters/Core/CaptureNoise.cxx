@@ -28,13 +28,15 @@ std::uint64_t scramble(std::uint64_t x)
   return x ^ x >> 31;
 }
 
-/** The number at a place of the sequence that a key names: random access, so that no order of drawing matters. */
+/** The number at a place of the sequence that a key names: random access, so that no order of drawing
+ * matters. */
 std::uint64_t bitsAt(std::uint64_t key, std::uint64_t place)
 {
   return scramble(key + (place + 1) * 0x9e3779b97f4a7c15ULL);
 }
 
-/** Sum of the four 16-bit parts of 64 random bits, brought to mean 0 and deviation 1: near enough to be smoothed. */
+/** Sum of the four 16-bit parts of 64 random bits, brought to mean 0 and deviation 1: near enough to be
+ * smoothed. */
 double roughGaussianAt(std::uint64_t key, std::uint64_t place)
 {
   const std::uint64_t b = bitsAt(key, place);
@@ -42,11 +44,13 @@ double roughGaussianAt(std::uint64_t key, std::uint64_t place)
   return (double(sum) - 131070.0) / (65536.0 / std::sqrt(3.0));
 }
 
-/** For each pixel the distance, at most `reach`, to the nearest pixel of its column that has the other value. */
+/** For each pixel the distance, at most `reach`, to the nearest pixel of its column that has the other value.
+ */
 std::vector<int> columnDistances(const BinaryImage& mask, int reach)
 {
   std::vector<int> result(mask.pixels.size(), reach);
-  const auto sweep = [&](int first, int last, int step) {
+  const auto sweep = [&](int first, int last, int step)
+  {
     for (int row = first + step; row != last; row += step)
     {
       for (int column = 0; column < mask.width; ++column)
@@ -78,7 +82,8 @@ std::vector<double> signedDistances(const BinaryImage& mask, int reach)
     for (int column = 0; column < mask.width; ++column)
     {
       long best = long(vertical[column]) * vertical[column];
-      const auto visit = [&](int other, long squared) {
+      const auto visit = [&](int other, long squared)
+      {
         const long v = value[other] != value[column] ? 0 : vertical[other];
         best = std::min(best, squared + v * v);
       };
@@ -170,14 +175,14 @@ BinaryImage addContourNoise(const BinaryImage& mask, double sigma, std::uint64_t
   if (!(sigma >= 0.0 && sigma <= GreatestContourNoise))
   {
     throw InvalidInput("contour noise " + std::to_string(sigma) + " is outside 0 to " +
-      std::to_string(GreatestContourNoise));
+                       std::to_string(GreatestContourNoise));
   }
   if (sigma == 0.0 || mask.pixels.empty())
   {
     return mask;
   }
   const std::vector<double> kernel = smoothingKernel(6.0 * statedScale(mask));
-  // No draw reaches eight deviations: pixels further away keep their value.
+  // Draws beyond eight deviations do not happen: pixels further away keep their value.
   const int reach = int(std::min(std::ceil(8.0 * sigma), double(std::max(mask.width, mask.height)))) + 1;
   const std::vector<double> distance = signedDistances(mask, reach);
   const std::vector<double> noise = rowNoise(mask.width, mask.height + int(kernel.size()) - 1, kernel, key);

@@ -3,8 +3,8 @@
  * Noise for silhouettes and cameras: the random numbers and what is done to a mask with them.
  *
  * A number is drawn from a key and a place, not from a generator with a state, so that it depends neither on
- * threads nor on what else is drawn. Only whole numbers, sums, products and square roots are used, which every machine
- * computes alike.
+ * threads nor on what else is drawn. Only sums, products, quotients and square roots are used, which
+ * every machine computes alike.
  */
 #pragma once
 
@@ -42,16 +42,16 @@ std::size_t indexAt(std::uint64_t key, std::uint64_t place, std::size_t count);
 double gaussianAt(std::uint64_t key, std::uint64_t place);
 
 /**
- * The contour moved along its normal by a Gaussian random field of standard deviation `sigma` px that is smooth
- * over 6 px (for 1024 px of the shorter side, in proportion for others): object where the distance from the
- * contour, exact, positive inside, plus the field is positive. Cost: proportional to pixels and,
+ * The contour moved along its normal by a Gaussian random field of standard deviation `sigma` px that is
+ * smooth over 6 px (for 1024 px of the shorter side, in proportion for others): object where the distance
+ * from the contour, exact, positive inside, plus the field is positive. Cost: proportional to pixels and,
  * near the contour, to sigma. Throws InvalidInput for a sigma outside 0 to GreatestContourNoise.
  */
 BinaryImage addContourNoise(const BinaryImage& mask, double sigma, std::uint64_t key);
 
 /**
- * Three discs cut out of the object, their centres drawn from its pixels, their radii from 8 to 25 px (for 1024 px
- * of the shorter side, in proportion for others). A mask without object stays as it is.
+ * Three discs cut out of the object, their centres drawn from its pixels, their radii from 8 to 25 px (for
+ * 1024 px of the shorter side, in proportion for others). A mask without object stays as it is.
  */
 BinaryImage cutBlobs(const BinaryImage& mask, std::uint64_t key);
 

@@ -18,8 +18,8 @@ constexpr double Bound3d = 9e-16;
 constexpr double LeastEstimate = 1e-280;
 
 /**
- * A number as the exact sum of at most Capacity doubles, in increasing magnitude, without overlap and zeros: its
- * sign is that of the last. Operations give exactly the sum or product.
+ * A number as the exact sum of at most Capacity doubles, in increasing magnitude, without overlap and zeros:
+ * its sign is that of the last. Operations give exactly the sum or product.
  */
 template <int Capacity>
 struct Expansion
@@ -128,7 +128,8 @@ Expansion<2 * N * M> product(const Expansion<N>& a, const Expansion<M>& b)
 using Difference2 = std::array<Expansion<2>, 2>;
 using Difference3 = std::array<Expansion<2>, 3>;
 
-Expansion<16> determinant(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d)
+Expansion<16> determinant(
+  const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d)
 {
   return sum(product(a, d), negated(product(b, c)));
 }
@@ -183,7 +184,8 @@ int orient2d(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Ve
   return sign != 0 ? sign : exactOrient2d(a, b, c);
 }
 
-int orient3d(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d)
+int orient3d(
+  const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d)
 {
   const double px = b[0] - a[0], py = b[1] - a[1], pz = b[2] - a[2];
   const double qx = c[0] - a[0], qy = c[1] - a[1], qz = c[2] - a[2];

@@ -17,15 +17,12 @@ namespace silhouette
 namespace
 {
 
-/** Marching cubes on a lattice from (-1, -1, -1), done only in the blocks of cells that the surface may meet. */
+/** Marching cubes on a lattice from (-1, -1, -1), done only in the blocks of cells that the surface may meet.
+ */
 class Contour
 {
 public:
-  Contour(const DistanceField& field, double cellEdge)
-    : TheField(field)
-    , CellEdge(cellEdge)
-  {
-  }
+  Contour(const DistanceField& field, double cellEdge) : TheField(field), CellEdge(cellEdge) {}
 
   Mesh operator()()
   {
@@ -34,7 +31,7 @@ public:
     {
       size *= 2;
     }
-    this->descend({ 0, 0, 0 }, size);
+    this->descend({0, 0, 0}, size);
     return std::move(this->Result);
   }
 
@@ -44,7 +41,7 @@ private:
 
   Eigen::Vector3d position(const LatticePoint& p) const
   {
-    return { this->CellEdge * p.i - 1.0, this->CellEdge * p.j - 1.0, this->CellEdge * p.k - 1.0 };
+    return {this->CellEdge * p.i - 1.0, this->CellEdge * p.j - 1.0, this->CellEdge * p.k - 1.0};
   }
 
   /** The field at a lattice point of the block under work, asked for once. */
@@ -64,7 +61,7 @@ private:
       this->Values.fill(std::numeric_limits<double>::quiet_NaN());
     }
     const int half = size / 2;
-    const LatticePoint middle = origin + LatticePoint{ half, half, half };
+    const LatticePoint middle = origin + LatticePoint{half, half, half};
     const double field = size <= BlockCells ? this->value(middle) : this->TheField(this->position(middle));
     if (std::abs(field) > this->TheField.steepness() * std::sqrt(3.0) * half * this->CellEdge)
     {
@@ -73,7 +70,7 @@ private:
     for (int c = 0; c < 8; ++c)
     {
       const LatticePoint o = cornerOffset(c);
-      const LatticePoint child = origin + LatticePoint{ o.i * half, o.j * half, o.k * half };
+      const LatticePoint child = origin + LatticePoint{o.i * half, o.j * half, o.k * half};
       if (half > 1)
       {
         this->descend(child, half);
@@ -120,7 +117,8 @@ private:
     return found->second;
   }
 
-  /** Where the field changes sign between a and b: false position, the end that stays put given half weight. */
+  /** Where the field changes sign between a and b: false position, the end that stays put given half weight.
+   */
   double root(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double atA, double atB) const
   {
     double low = 0.0;

@@ -100,12 +100,14 @@ SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice)
   return found;
 }
 
-LatticeLabels::LatticeLabels(const Octree& octree, const PreparedViews& views, Execution& execution)
+LatticeLabels::LatticeLabels(
+  const Octree& octree, CornerShell shell, const PreparedViews& views, Execution& execution)
   : TheOctree(&octree)
-  , Shell(makeCornerShell(leafCells(octree, OctantState::Intersection), execution))
+  , Shell(std::move(shell))
   , Inside(Shell.corners.size())
   , Votes(Shell.corners.size())
 {
+  this->markSurvivors();
   const LatticeViews latticeViews(views, octree.lattice);
   const int required = views.size() - octree.backgroundVotes;
   execution.forRanges(this->Shell.corners.size(), 1024,
@@ -120,13 +122,14 @@ LatticeLabels::LatticeLabels(const Octree& octree, const PreparedViews& views, E
     });
 }
 
-LatticeLabels::LatticeLabels(const Octree& octree, const SurfaceCrossings& crossings, Execution& execution)
+LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const SurfaceCrossings& crossings)
   : TheOctree(&octree)
-  , Shell(makeCornerShell(leafCells(octree, OctantState::Intersection), execution))
+  , Shell(std::move(shell))
   , Inside(Shell.corners.size(), Unknown)
   , Votes(Shell.corners.size(), 0)
 {
-  this->fromOctree(this->Inside);
+  this->markSurvivors();
+  this->fromOctree();
   const auto label = [&](std::ptrdiff_t corner, std::uint8_t value)
   {
     if (corner >= 0 && this->Inside[corner] == Unknown)
@@ -142,7 +145,13 @@ LatticeLabels::LatticeLabels(const Octree& octree, const SurfaceCrossings& cross
     label(this->Shell.find(edge >> 2), crossings.lowerInside[i]);
     label(this->Shell.find(upperEnd(edge >> 2, axisOf(edge))), !crossings.lowerInside[i]);
   }
-  // Spread along the edges that the surface does not cross, breadth first in lattice order.
+  this->spread(crossings);
+  std::replace(this->Inside.begin(), this->Inside.end(), Unknown, std::uint8_t(0));
+}
+
+/** Labels go along the edges that the surface does not cross, breadth first in lattice order. */
+void LatticeLabels::spread(const SurfaceCrossings& crossings)
+{
   std::vector<std::vector<std::uint32_t>> neighbours(this->Shell.corners.size());
   for (const auto& corners : this->Shell.cellCorners)
   {
@@ -176,11 +185,21 @@ LatticeLabels::LatticeLabels(const Octree& octree, const SurfaceCrossings& cross
       }
     }
   }
-  std::replace(this->Inside.begin(), this->Inside.end(), Unknown, std::uint8_t(0));
 }
 
-void LatticeLabels::fromOctree(std::vector<std::uint8_t>& known)
+void LatticeLabels::markSurvivors()
 {
+  const auto survivors = leafCells(*this->TheOctree, OctantState::Intersection);
+  this->Survivor.reserve(this->Shell.cells.size());
+  for (const std::uint64_t cell : this->Shell.cells)
+  {
+    this->Survivor.push_back(std::binary_search(survivors.begin(), survivors.end(), cell));
+  }
+}
+
+void LatticeLabels::fromOctree()
+{
+  auto& known = this->Inside;
   const Lattice& lattice = this->TheOctree->lattice;
   for (std::size_t c = 0; c < known.size(); ++c)
   {
@@ -219,7 +238,7 @@ bool LatticeLabels::insideAt(const LatticePoint& p) const
   {
     return this->Inside[corner] != 0;
   }
-  // No intersection octant of the last generation touches it, so that every octant around it tells.
+  // No intersection octant of the last generation touches it: every octant around it tells.
   const auto location = this->TheOctree->locate(p);
   return location.state == OctantState::Inside ||
     (!this->Filled.empty() &&
@@ -239,9 +258,10 @@ int LatticeLabels::cellsAround(const LatticePoint& p, std::array<std::uint32_t, 
       continue;
     }
     const auto at = std::lower_bound(this->Shell.cells.begin(), this->Shell.cells.end(), mortonCode(cell));
-    if (at != this->Shell.cells.end() && *at == mortonCode(cell))
+    const auto number = std::size_t(at - this->Shell.cells.begin());
+    if (at != this->Shell.cells.end() && *at == mortonCode(cell) && this->Survivor[number])
     {
-      cells[count++] = std::uint32_t(at - this->Shell.cells.begin());
+      cells[count++] = std::uint32_t(number);
     }
   }
   return count;

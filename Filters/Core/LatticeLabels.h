@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Labels of lattice corners: kept for the corners of the octree's last-generation intersection octants, and read
- * off the octree everywhere else.
+ * Labels of lattice corners: kept for the corners of a shell of cells, the octree's last-generation intersection
+ * octants and whatever further cells are asked for, and read off the octree everywhere else.
  */
 #pragma once
 
@@ -47,12 +47,12 @@ class LatticeLabels
 {
 public:
   /** Labels by votes: inside iff at most the octree's k views say background, not on the root cube's border. */
-  LatticeLabels(const Octree& octree, const PreparedViews& views, Execution& execution);
+  LatticeLabels(const Octree& octree, CornerShell shell, const PreparedViews& views, Execution& execution);
   /**
    * Labels without views: corners of inside octants are inside, those of background octants outside; the rest by
    * the surface's crossings, and where an edge has none its ends are alike. What stays unknown is outside.
    */
-  LatticeLabels(const Octree& octree, const SurfaceCrossings& crossings, Execution& execution);
+  LatticeLabels(const Octree& octree, CornerShell shell, const SurfaceCrossings& crossings);
 
   const Octree& octree() const { return *this->TheOctree; }
   const CornerShell& shell() const { return this->Shell; }
@@ -67,15 +67,20 @@ public:
 
   /** Label of any lattice point. */
   bool insideAt(const LatticePoint& p) const;
-  /** Numbers of the intersection cells around a lattice point, at most eight; returns how many. */
+  /** Is a cell of the shell an intersection octant, and not a further cell? */
+  bool isSurvivor(std::size_t cell) const { return this->Survivor[cell] != 0; }
+  /** Numbers of the surviving cells of the shell around a lattice point, at most eight; returns how many. */
   int cellsAround(const LatticePoint& p, std::array<std::uint32_t, 8>& cells) const;
 
 private:
-  void fromOctree(std::vector<std::uint8_t>& known);
+  void markSurvivors();
+  void fromOctree();
+  void spread(const SurfaceCrossings& crossings);
 
   const Octree* TheOctree;
   CornerShell Shell;
   std::vector<std::uint8_t> Inside;
+  std::vector<std::uint8_t> Survivor;
   std::vector<std::uint16_t> Votes;
   std::vector<std::pair<int, std::size_t>> Filled; ///< sorted
 };

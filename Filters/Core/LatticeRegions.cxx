@@ -185,23 +185,29 @@ std::uint64_t fillCavities(LatticeLabels& labels)
   return cavities.size();
 }
 
-std::uint64_t countSurvivorComponents(const Octree& octree, Execution& execution)
+LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell)
 {
-  const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
   LatticeRegions regions = emptyRegions(octree, shell.corners.size());
   joinOctants(octree, OctantState::Inside, false, regions);
-  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
+  for (const auto& corners : shell.cellCorners)
   {
-    for (const std::uint32_t corner : shell.cellCorners[cell])
+    for (const std::uint32_t corner : corners)
     {
-      regions.sets.unite(shell.cellCorners[cell][0], corner);
+      regions.sets.unite(corners[0], corner);
     }
   }
-  std::set<std::uint32_t> components;
   for (std::size_t c = 0; c < shell.corners.size(); ++c)
   {
     joinCornerToOctants(octree, fromMorton(shell.corners[c]), std::uint32_t(c), OctantState::Inside, regions);
   }
+  return regions;
+}
+
+std::uint64_t countSurvivorComponents(const Octree& octree, Execution& execution)
+{
+  const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
+  LatticeRegions regions = connectSurvivors(octree, shell);
+  std::set<std::uint32_t> components;
   for (std::size_t c = 0; c < shell.corners.size(); ++c)
   {
     components.insert(regions.sets.find(std::uint32_t(c)));

@@ -26,6 +26,9 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside);
 /** Label the cavities, outside regions that do not reach the world beyond, inside; returns their number. */
 std::uint64_t fillCavities(LatticeLabels& labels);
 
+/** Sets of the survivors that touch (26-neighbourhood), each with its corners; `shell` is that of the intersection octants. */
+LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell);
+
 /** Number of components of the last generation's and all inside octants in the 26-neighbourhood. */
 std::uint64_t countSurvivorComponents(const Octree& octree, Execution& execution);
 

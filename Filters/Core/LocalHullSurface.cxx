@@ -25,30 +25,46 @@ void check(const Octree& octree, const PreparedViews* views, const LocalHullOpti
   {
     throw InvalidInput("cover offset " + std::to_string(options.coverOffset) + " octants is outside 0.01 to 0.99");
   }
-}
-
-LatticeLabels makeLabels(
-  const Octree& octree, const PreparedViews* views, const SurfaceCrossings& crossings, Execution& execution)
-{
-  return views ? LatticeLabels(octree, *views, execution) : LatticeLabels(octree, crossings, execution);
-}
-
-/** The cells that the surface may pass: the intersection octants, and those around corners added to the solid. */
-std::vector<std::uint64_t> cellsOfSurface(const LatticeLabels& labels, const std::vector<std::uint32_t>& added)
-{
-  std::vector<std::uint64_t> cells = labels.shell().cells;
-  for (const std::uint32_t corner : added)
+  if (options.bridgeGap < 0)
   {
-    const LatticePoint p = fromMorton(labels.shell().corners[corner]);
+    throw InvalidInput("bridge gap " + std::to_string(options.bridgeGap) + " octants: at least 0 is needed");
+  }
+}
+
+LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const PreparedViews* views,
+  const SurfaceCrossings& crossings, Execution& execution)
+{
+  return views ? LatticeLabels(octree, std::move(shell), *views, execution)
+               : LatticeLabels(octree, std::move(shell), crossings);
+}
+
+/** The shell with the eight cells around each of the given points, none of which is on the border. */
+CornerShell extended(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
+{
+  std::vector<std::uint64_t> cells = shell.cells;
+  for (const std::uint64_t point : points)
+  {
+    const LatticePoint p = fromMorton(point);
     for (int n = 0; n < 8; ++n)
     {
       const LatticePoint o = cornerOffset(n);
-      cells.push_back(mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k })); // an added corner is never on the border
+      cells.push_back(mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k }));
     }
   }
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
+  return makeCornerShell(std::move(cells), execution);
+}
+
+std::vector<std::uint64_t> codesOf(const CornerShell& shell, const std::vector<std::uint32_t>& corners)
+{
+  std::vector<std::uint64_t> codes;
+  for (const std::uint32_t corner : corners)
+  {
+    codes.push_back(shell.corners[corner]);
+  }
+  std::sort(codes.begin(), codes.end());
+  return codes;
 }
 
 /** Where the surface crosses an edge: as the imperfect surface or the votes say, near the corner if that was added. */
@@ -56,9 +72,9 @@ class CrossingPlacer
 {
 public:
   CrossingPlacer(const LatticeLabels& labels, const SurfaceCrossings& crossings, const PreparedViews* views,
-    const std::vector<std::uint32_t>& added, double coverOffset)
-    : Labels(labels)
-    , Crossings(crossings)
+    std::vector<std::uint64_t> added, double coverOffset)
+    : Crossings(crossings)
+    , Added(std::move(added))
     , BackgroundVotes(labels.octree().backgroundVotes)
     , CoverOffset(coverOffset)
   {
@@ -66,11 +82,6 @@ public:
     {
       this->Views.emplace(*views, labels.octree().lattice);
     }
-    for (const std::uint32_t corner : added)
-    {
-      this->Added.push_back(labels.shell().corners[corner]);
-    }
-    std::sort(this->Added.begin(), this->Added.end());
   }
 
   double operator()(std::uint64_t inside, std::uint64_t outside) const
@@ -97,20 +108,19 @@ public:
   }
 
 private:
-  const LatticeLabels& Labels;
   const SurfaceCrossings& Crossings;
   std::optional<LatticeViews> Views;
-  std::vector<std::uint64_t> Added;
+  std::vector<std::uint64_t> Added; ///< ascending
   int BackgroundVotes;
   double CoverOffset;
 };
 
 /** Contour the labels and place the points. */
-void makeSurface(const LatticeLabels& labels, const std::vector<std::uint32_t>& added, const CrossingPlacer& place,
+void makeSurface(const LatticeLabels& labels, const std::vector<std::uint64_t>& added, const CrossingPlacer& place,
   bool singlePrecision, LocalHullSurface& surface, Execution& execution)
 {
   const Lattice& lattice = labels.octree().lattice;
-  const CornerShell shell = makeCornerShell(cellsOfSurface(labels, added), execution);
+  const CornerShell shell = extended(labels.shell(), added, execution);
   std::vector<std::uint8_t> inside(shell.corners.size());
   execution.forRanges(inside.size(), 1024,
     [&](std::size_t first, std::size_t last)
@@ -151,27 +161,35 @@ LocalHullSurface localHullSurface(const Mesh& imperfect, const Octree& octree, c
   const SurfaceCrossings crossings = locateCrossings(imperfect, octree.lattice);
   surface.ignoredPoints = crossings.ignoredPoints;
   execution.checkpoint(0.1);
-  LatticeLabels labels = makeLabels(octree, views, crossings, execution);
-  execution.checkpoint(0.3);
+  CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
+  const std::vector<Bridge> bridges = bridgeSurvivors(octree, shell, options.bridgeGap);
+  surface.bridges = bridges.size();
+  if (!bridges.empty())
+  {
+    std::vector<std::uint64_t> points;
+    for (const auto& bridge : bridges)
+    {
+      points.insert(points.end(), bridge.begin(), bridge.end());
+    }
+    shell = extended(shell, points, execution);
+  }
+  execution.checkpoint(0.2);
+  LatticeLabels labels = makeLabels(octree, std::move(shell), views, crossings, execution);
+  execution.checkpoint(0.35);
   surface.survivors = octree.count(OctantState::Intersection, octree.lattice.depth) +
     octree.count(OctantState::Inside, octree.lattice.depth);
-  if (options.fillCavities)
-  {
-    surface.cavitiesFilled += fillCavities(labels);
-  }
+  surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
   execution.checkpoint(0.4);
-  const CoveringResult covering = coverSurvivors(labels);
+  const CoveringResult covering = coverSurvivors(labels, bridges);
   surface.coveredOctants = covering.coveredOctants;
   surface.coveringCorners = covering.coveringCorners.size();
   execution.checkpoint(0.5);
-  if (options.fillCavities)
-  {
-    surface.cavitiesFilled += fillCavities(labels);
-  }
+  surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
   execution.checkpoint(0.6);
-  const CrossingPlacer place(labels, crossings, views, covering.coveringCorners, options.coverOffset);
+  const auto added = codesOf(labels.shell(), covering.coveringCorners);
+  const CrossingPlacer place(labels, crossings, views, added, options.coverOffset);
   Phase contouring(execution, 0.6, 1.0);
-  makeSurface(labels, covering.coveringCorners, place, options.singlePrecision, surface, contouring);
+  makeSurface(labels, added, place, options.singlePrecision, surface, contouring);
   return surface;
 }
 
@@ -184,7 +202,8 @@ std::vector<LocalHull> classifyLocalHulls(const Mesh& imperfect, const Octree& o
     return {};
   }
   const SurfaceCrossings crossings = locateCrossings(imperfect, octree.lattice);
-  const LatticeLabels labels = makeLabels(octree, views, crossings, execution);
+  CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
+  const LatticeLabels labels = makeLabels(octree, std::move(shell), views, crossings, execution);
   return localHulls(imperfect, labels, options.hulls, execution);
 }
 

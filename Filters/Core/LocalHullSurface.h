@@ -19,6 +19,7 @@ struct LocalHullOptions
 {
   bool fillCavities = true;   ///< label cavities inside; without it a cavity's wall is one more component
   double coverOffset = 0.03;  ///< in octants, 0.01 to 0.99: how far the surface stands off a covering corner
+  int bridgeGap = 2;          ///< in octants, 0 or more: survivors' components no further apart are joined; larger joins more
   bool singlePrecision = false; ///< round points to float, and promise it for these
   LocalHullsOptions hulls;
 };
@@ -30,6 +31,7 @@ struct LocalHullSurface
   std::uint64_t survivors = 0;       ///< last-generation octants that survived, inside ones too
   std::uint64_t coveredOctants = 0;  ///< survivors that had no inside corner
   std::uint64_t coveringCorners = 0; ///< corners labelled inside to cover or to join
+  std::uint64_t bridges = 0;         ///< joints between components of the survivors
   std::uint64_t cavitiesFilled = 0;  ///< cavities that were labelled inside
   std::uint64_t ignoredPoints = 0;   ///< points of the imperfect surface that lie on no lattice edge
   std::uint64_t movedToMiddle = 0;   ///< points moved to the middle of their edge against a self-intersection

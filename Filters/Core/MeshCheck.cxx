@@ -24,8 +24,8 @@ void checkMesh(const Mesh& mesh)
     {
       if (p < 0 || p >= count)
       {
-        throw InvalidInput("triangle " + std::to_string(t) + " names point " + std::to_string(p) + " of a mesh of " +
-          std::to_string(count) + " points");
+        throw InvalidInput("triangle " + std::to_string(t) + " names point " + std::to_string(p) +
+          " of a mesh of " + std::to_string(count) + " points");
       }
     }
   }

@@ -10,8 +10,8 @@ namespace silhouette
 {
 
 /**
- * Throws InvalidInput for a triangle that names no point of the mesh and for a coordinate that is not finite; the
- * message gives triangle or point. Cost: one pass.
+ * Throws InvalidInput for a triangle that names no point of the mesh and for a coordinate that is not finite;
+ * the message gives triangle or point. Cost: one pass.
  */
 void checkMesh(const Mesh& mesh);
 

@@ -58,7 +58,8 @@ struct Target
       [&](std::int32_t i)
       {
         const Triangle& t = this->mesh.triangles[i];
-        return squaredDistanceToTriangle(x, this->mesh.points[t[0]], this->mesh.points[t[1]], this->mesh.points[t[2]]);
+        return squaredDistanceToTriangle(
+          x, this->mesh.points[t[0]], this->mesh.points[t[1]], this->mesh.points[t[2]]);
       });
   }
 
@@ -99,11 +100,13 @@ struct Sums
 
 double subdivisions(const Point& a, const Point& b, const Point& c, double spacing)
 {
-  const double longest = std::sqrt(std::max({ (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() }));
+  const double longest =
+    std::sqrt(std::max({ (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() }));
   return std::max(1.0, std::ceil(longest / spacing));
 }
 
-void sampleTriangle(const Target& target, const Point& a, const Point& b, const Point& c, double spacing, Sums& sums)
+void sampleTriangle(
+  const Target& target, const Point& a, const Point& b, const Point& c, double spacing, Sums& sums)
 {
   const int n = int(subdivisions(a, b, c, spacing));
   const double area = (b - a).cross(c - a).norm() / 2.0 / (double(n) * n);
@@ -139,7 +142,8 @@ void checkSampling(const Mesh& from, const Mesh& to, double spacing)
     const Triangle& p = from.triangles[t];
     if (!(subdivisions(from.points[p[0]], from.points[p[1]], from.points[p[2]], spacing) <= MostSubdivisions))
     {
-      throw InvalidInput("a spacing of " + std::to_string(spacing) + " is too fine for triangle " + std::to_string(t));
+      throw InvalidInput(
+        "a spacing of " + std::to_string(spacing) + " is too fine for triangle " + std::to_string(t));
     }
   }
 }
@@ -180,7 +184,8 @@ Sums sampleAll(const Mesh& from, const Target& target, double spacing, Execution
           for (std::size_t t = b * Block; t < std::min(from.triangles.size(), (b + 1) * Block); ++t)
           {
             const Triangle& p = from.triangles[t];
-            sampleTriangle(target, from.points[p[0]], from.points[p[1]], from.points[p[2]], spacing, blocks[b]);
+            sampleTriangle(
+              target, from.points[p[0]], from.points[p[1]], from.points[p[2]], spacing, blocks[b]);
           }
         }
       });

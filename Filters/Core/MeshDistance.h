@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * How far is one surface from another? Distances from area samples of the one to the nearest point of the other's
- * triangles.
+ * How far is one surface from another? Distances from area samples of the one to the nearest point of the
+ * other's triangles.
  */
 #pragma once
 
@@ -20,13 +20,14 @@ struct MeshDistance
 };
 
 /**
- * The distance from surface `from` to surface `to`. Each triangle is cut into n x n equal ones, n the least whole
- * number of at least its longest edge / `spacing`; each of these is sampled at its centroid with its area as
- * weight. Corners are samples for the maximum alone. A mesh without area counts each sample alike.
+ * The distance from surface `from` to surface `to`. Each triangle is cut into n x n equal ones, n the least
+ * whole number of at least its longest edge / `spacing`; each of these is sampled at its centroid with its
+ * area as weight. Corners are samples for the maximum alone. A mesh without area counts each sample alike.
  *
- * `spacing` > 0, in the meshes' unit; larger is faster and coarser. The result does not depend on the number of
- * threads. Throws InvalidInput for an invalid mesh, a mesh without triangles, a spacing that is not positive or
- * so small that a triangle would have more than 10^8 samples; Cancelled. Cost: about 2 us a sample.
+ * `spacing` > 0, in the meshes' unit; larger is faster and coarser. The result does not depend on the number
+ * of threads. Throws InvalidInput for an invalid mesh, a mesh without triangles, a spacing that is not
+ * positive or so small that a triangle would have more than 10^8 samples; Cancelled. Cost: about 2 us a
+ * sample.
  */
 MeshDistance meshDistance(const Mesh& from, const Mesh& to, double spacing, Execution& execution);
 

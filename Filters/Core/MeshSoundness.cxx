@@ -3,6 +3,7 @@
 
 #include "MeshCheck.h"
 #include "SelfIntersections.h"
+#include "UnionFind.h"
 
 #include <Eigen/Geometry>
 
@@ -16,38 +17,9 @@ namespace silhouette
 namespace
 {
 
-/** Sets of 0 to n - 1, each named by its least member. */
-class DisjointSets
-{
-public:
-  explicit DisjointSets(std::size_t n)
-    : Parent(n)
-  {
-    std::iota(this->Parent.begin(), this->Parent.end(), 0);
-  }
-  std::int32_t find(std::int32_t i)
-  {
-    while (this->Parent[i] != i)
-    {
-      this->Parent[i] = this->Parent[this->Parent[i]];
-      i = this->Parent[i];
-    }
-    return i;
-  }
-  /** True where they were apart. */
-  bool unite(std::int32_t i, std::int32_t j)
-  {
-    i = this->find(i);
-    j = this->find(j);
-    this->Parent[std::max(i, j)] = std::min(i, j);
-    return i != j;
-  }
-
-private:
-  std::vector<std::int32_t> Parent;
-};
-
-/** For each point the triangles around it: corner 3 t + c of triangle t is in its point's part of `corners`. */
+/**
+ * For each point the triangles around it: corner 3 t + c of triangle t is in its point's part of `corners`.
+ */
 struct Corners
 {
   std::vector<std::size_t> first; ///< one more than points
@@ -78,7 +50,9 @@ Corners cornersOfPoints(const Mesh& mesh)
   return result;
 }
 
-/** One end of the edge that faces a point: which neighbour, and of which of the triangles around the point. */
+/**
+ * One end of the edge that faces a point: which neighbour, and of which of the triangles around the point.
+ */
 struct LinkEnd
 {
   std::int32_t neighbour;
@@ -90,14 +64,14 @@ struct LinkEnd
 };
 
 /**
- * Are these triangles around a point one fan? The edges that face the point have to form one path or one cycle:
- * each neighbour ends at most two of them, and all hang together.
+ * Are these triangles around a point one fan? The edges that face the point have to form one path or one
+ * cycle: each neighbour ends at most two of them, and all hang together.
  */
 bool isOneFan(std::vector<LinkEnd>& ends, std::int32_t point)
 {
   std::sort(ends.begin(), ends.end());
-  DisjointSets fans(ends.size() / 2);
-  std::size_t pieces = ends.size() / 2;
+  UnionFind fans(ends.size() / 2);
+  std::size_t pieces = fans.size();
   for (std::size_t first = 0; first < ends.size();)
   {
     std::size_t last = first + 1;
@@ -109,8 +83,9 @@ bool isOneFan(std::vector<LinkEnd>& ends, std::int32_t point)
     {
       return false;
     }
-    if (last - first == 2 && fans.unite(ends[first].triangle, ends[first + 1].triangle))
+    if (last - first == 2 && fans.find(ends[first].triangle) != fans.find(ends[first + 1].triangle))
     {
+      fans.unite(ends[first].triangle, ends[first + 1].triangle);
       --pieces;
     }
     first = last;
@@ -181,16 +156,20 @@ std::uint64_t assessEdges(const Mesh& mesh, MeshSoundness& result)
   return edges;
 }
 
-std::uint64_t componentsOf(const Mesh& mesh, std::uint64_t usedPoints)
+std::uint64_t componentsOf(const Mesh& mesh, std::uint64_t unusedPoints)
 {
-  DisjointSets sets(mesh.points.size());
-  std::uint64_t components = usedPoints;
+  UnionFind sets(mesh.points.size());
   for (const Triangle& t : mesh.triangles)
   {
-    components -= sets.unite(t[0], t[1]);
-    components -= sets.unite(t[0], t[2]);
+    sets.unite(t[0], t[1]);
+    sets.unite(t[0], t[2]);
   }
-  return components;
+  std::uint64_t count = 0;
+  for (std::size_t p = 0; p < mesh.points.size(); ++p)
+  {
+    count += sets.find(std::uint32_t(p)) == p;
+  }
+  return count - unusedPoints; // each of these is a set of its own
 }
 
 void measure(const Mesh& mesh, MeshSoundness& result)
@@ -204,7 +183,8 @@ void measure(const Mesh& mesh, MeshSoundness& result)
     }
   }
   // About the centre, lest a mesh far from the origin lose the digits of its volume.
-  const Eigen::Vector3d centre = mesh.triangles.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(bounds.center());
+  const Eigen::Vector3d centre =
+    mesh.triangles.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(bounds.center());
   for (const Triangle& t : mesh.triangles)
   {
     const Eigen::Vector3d a = mesh.points[t[0]] - centre;
@@ -226,14 +206,15 @@ MeshSoundness assessMesh(const Mesh& mesh, Execution& execution)
   assessPoints(mesh, execution, result);
   execution.checkpoint(0.15);
   const std::uint64_t edges = assessEdges(mesh, result);
-  result.components = componentsOf(mesh, result.points);
+  result.components = componentsOf(mesh, result.unusedPoints);
   measure(mesh, result);
   const bool hasGenus = result.closed() && result.nonManifoldEdges == 0 && result.nonManifoldVertices == 0 &&
     result.inconsistentEdges == 0;
   if (hasGenus)
   {
     // Euler: points - edges + triangles = 2 components - 2 genus.
-    const auto characteristic = std::int64_t(result.points) - std::int64_t(edges) + std::int64_t(result.triangles);
+    const auto characteristic =
+      std::int64_t(result.points) - std::int64_t(edges) + std::int64_t(result.triangles);
     result.genus = std::int64_t(result.components) - characteristic / 2;
   }
   Phase intersections(execution, 0.3, 1.0);
@@ -279,7 +260,8 @@ Mesh weldCoincidentPoints(const Mesh& mesh)
   result.triangles.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles)
   {
-    result.triangles.push_back({ newIndex[firstEqual[t[0]]], newIndex[firstEqual[t[1]]], newIndex[firstEqual[t[2]]] });
+    result.triangles.push_back(
+      { newIndex[firstEqual[t[0]]], newIndex[firstEqual[t[1]]], newIndex[firstEqual[t[2]]] });
   }
   return result;
 }

@@ -21,8 +21,8 @@ constexpr std::size_t Batches = 16;  ///< times that a run asks whether it is ca
 using PairList = std::vector<TrianglePair>;
 
 /** Run find(item, list) for all items and return what the lists hold, in the items' order. */
-PairList collect(
-  std::size_t items, const std::function<void(std::size_t, PairList&)>& find, Execution& execution, double from)
+PairList collect(std::size_t items, const std::function<void(std::size_t, PairList&)>& find,
+  Execution& execution, double from)
 {
   const std::size_t blocks = (items + Block - 1) / Block;
   std::vector<PairList> lists(blocks);
@@ -56,8 +56,8 @@ std::vector<std::int32_t> checkedSubset(const Mesh& mesh, std::vector<std::int32
   subset.erase(std::unique(subset.begin(), subset.end()), subset.end());
   if (!subset.empty() && (subset.front() < 0 || std::size_t(subset.back()) >= mesh.triangles.size()))
   {
-    throw InvalidInput("a triangle index of the subset is outside 0 to " + std::to_string(mesh.triangles.size()) +
-      " - 1: " + std::to_string(subset.front() < 0 ? subset.front() : subset.back()));
+    throw InvalidInput("a triangle index of the subset is outside 0 to " +
+      std::to_string(mesh.triangles.size()) + " - 1: " + std::to_string(subset.front() < 0 ? subset.front() : subset.back()));
   }
   return subset;
 }

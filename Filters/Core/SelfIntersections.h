@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * All self-intersections of a mesh, by exact predicates (TriangleIntersection.h): pairs of triangles that meet
- * beyond what they share by index, and triangles without area, as a pair with themselves.
+ * All self-intersections of a mesh, by exact predicates (TriangleIntersection.h): pairs of triangles that
+ * meet beyond what they share by index, and triangles without area, as a pair with themselves.
  */
 #pragma once
 
@@ -26,8 +26,9 @@ using TrianglePair = std::array<std::int32_t, 2>;
 std::vector<TrianglePair> selfIntersections(const Mesh& mesh, Execution& execution);
 
 /**
- * The pairs of which both triangles are in `subset` (triangle indices in any order; repeats do not count). Throws
- * InvalidInput for an index out of range. Cost: as above for the subset alone, and one pass over the points.
+ * The pairs of which both triangles are in `subset` (triangle indices in any order; repeats do not count).
+ * Throws InvalidInput for an index out of range. Cost: as above for the subset alone, and one pass over the
+ * points.
  */
 std::vector<TrianglePair> selfIntersectionsAmong(
   const Mesh& mesh, const std::vector<std::int32_t>& subset, Execution& execution);

@@ -21,12 +21,10 @@ namespace
 class Photograph
 {
 public:
-  Photograph(const Mesh& mesh, const ShadingNormals& normals, const Projection& projection, const BinaryImage& mask)
-    : TheMesh(mesh)
-    , TheNormals(normals)
-    , Mask(mask)
-    , InverseDepth(mask.pixels.size(), 0.0)
-    , Colours(3 * mask.pixels.size())
+  Photograph(const Mesh& mesh, const ShadingNormals& normals, const Projection& projection,
+             const BinaryImage& mask)
+      : TheMesh(mesh), TheNormals(normals), Mask(mask), InverseDepth(mask.pixels.size(), 0.0),
+        Colours(3 * mask.pixels.size())
   {
     const Eigen::Matrix3d left = projection.leftCols<3>();
     this->Eye = -(left.inverse() * projection.col(3));
@@ -65,8 +63,8 @@ private:
   void drawTriangle(std::size_t t)
   {
     const Triangle& triangle = this->TheMesh.triangles[t];
-    const std::array<Vector3, 3> p = { this->Projected[triangle[0]], this->Projected[triangle[1]],
-      this->Projected[triangle[2]] };
+    const std::array<Vector3, 3> p = {this->Projected[triangle[0]], this->Projected[triangle[1]],
+                                      this->Projected[triangle[2]]};
     const Vector3 lowest = p[0].cwiseMin(p[1]).cwiseMin(p[2]);
     const Vector3 highest = p[0].cwiseMax(p[1]).cwiseMax(p[2]);
     const double area = (p[1] - p[0]).head<2>().dot(Vector2(p[2].y() - p[0].y(), p[0].x() - p[2].x()));
@@ -82,15 +80,17 @@ private:
     {
       for (int column = left; column <= right; ++column)
       {
-        const double b1 = ((column - p[0].x()) * (p[2].y() - p[0].y()) - (row - p[0].y()) * (p[2].x() - p[0].x())) / area;
-        const double b2 = ((row - p[0].y()) * (p[1].x() - p[0].x()) - (column - p[0].x()) * (p[1].y() - p[0].y())) / area;
-        this->drawPixel({ column, row }, { 1.0 - b1 - b2, b1, b2 }, p, normals);
+        const double b1 =
+            ((column - p[0].x()) * (p[2].y() - p[0].y()) - (row - p[0].y()) * (p[2].x() - p[0].x())) / area;
+        const double b2 =
+            ((row - p[0].y()) * (p[1].x() - p[0].x()) - (column - p[0].x()) * (p[1].y() - p[0].y())) / area;
+        this->drawPixel({column, row}, {1.0 - b1 - b2, b1, b2}, p, normals);
       }
     }
   }
 
   void drawPixel(const Eigen::Vector2i& pixel, const Vector3& share, const std::array<Vector3, 3>& p,
-    const std::array<Vector3, 3>& normals)
+                 const std::array<Vector3, 3>& normals)
   {
     const std::size_t i = std::size_t(pixel.y()) * this->Mask.width + pixel.x();
     const double inverseDepth = share[0] * p[0].z() + share[1] * p[1].z() + share[2] * p[2].z();
@@ -99,8 +99,8 @@ private:
       return;
     }
     this->InverseDepth[i] = inverseDepth;
-    const Vector3 normal =
-      share[0] * p[0].z() * normals[0] + share[1] * p[1].z() * normals[1] + share[2] * p[2].z() * normals[2];
+    const Vector3 normal = share[0] * p[0].z() * normals[0] + share[1] * p[1].z() * normals[1] +
+                           share[2] * p[2].z() * normals[2];
     this->shade(normal.normalized(), &this->Colours[3 * i]);
   }
 
@@ -122,7 +122,7 @@ private:
   /** Fired clay. Blue stays the least of the three whatever the light: the chroma key relies on it. */
   void shade(const Vector3& normal, std::uint8_t* colour) const
   {
-    constexpr std::array<double, 3> clay = { 0.86, 0.42, 0.22 };
+    constexpr std::array<double, 3> clay = {0.86, 0.42, 0.22};
     const double ambient = 0.20 + 0.08 * normal.z();
     const double light = ambient + 0.85 * std::max(normal.dot(this->Light), 0.0);
     for (int c = 0; c < 3; ++c)
@@ -144,8 +144,9 @@ private:
           continue;
         }
         this->shade(-this->Light, &this->Colours[3 * i]);
-        for (const std::size_t other : { column > 0 ? i - 1 : i, row > 0 ? i - this->Mask.width : i,
-               column + 1 < this->Mask.width ? i + 1 : i, row + 1 < this->Mask.height ? i + this->Mask.width : i })
+        for (const std::size_t other : {column > 0 ? i - 1 : i, row > 0 ? i - this->Mask.width : i,
+                                        column + 1 < this->Mask.width ? i + 1 : i,
+                                        row + 1 < this->Mask.height ? i + this->Mask.width : i})
         {
           if (this->InverseDepth[other] > 0.0)
           {
@@ -160,7 +161,7 @@ private:
   const ShadingNormals& TheNormals;
   const BinaryImage& Mask;
   Vector3 Eye;
-  Vector3 Light; ///< unit vector towards it
+  Vector3 Light;                  ///< unit vector towards it
   std::vector<Vector3> Projected; ///< u, v, 1 / w
   std::vector<double> InverseDepth;
   std::vector<std::uint8_t> Colours;
@@ -195,8 +196,8 @@ ShadingNormals shadingNormals(const Mesh& mesh)
     const Vector3 normal = (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a);
     for (int c = 0; c < 3; ++c)
     {
-      // Weights by which points on a sphere get the sphere's normals, whatever the triangles' shapes, were it not
-      // for `shortest`, which keeps the rounding of tiny triangles from counting most.
+      // Weights by which points on a sphere get the sphere's normals, whatever the triangles' shapes, were it
+      // not for `shortest`, which keeps the rounding of tiny triangles from counting most.
       const Vector3& p = mesh.points[t[c]];
       const double next = (mesh.points[t[(c + 1) % 3]] - p).squaredNorm();
       const double other = (mesh.points[t[(c + 2) % 3]] - p).squaredNorm();
@@ -211,8 +212,8 @@ ShadingNormals shadingNormals(const Mesh& mesh)
   return normals;
 }
 
-std::vector<std::uint8_t> shadePhotograph(
-  const Mesh& mesh, const ShadingNormals& normals, const Projection& projection, const BinaryImage& mask)
+std::vector<std::uint8_t> shadePhotograph(const Mesh& mesh, const ShadingNormals& normals,
+                                          const Projection& projection, const BinaryImage& mask)
 {
   if (normals.triangles.size() != mesh.triangles.size() || normals.points.size() != mesh.points.size())
   {
@@ -221,7 +222,7 @@ std::vector<std::uint8_t> shadePhotograph(
   if (mask.width < 1 || mask.height < 1 || mask.pixels.size() != std::size_t(mask.width) * mask.height)
   {
     throw InvalidInput("a mask of " + std::to_string(mask.width) + " x " + std::to_string(mask.height) +
-      " pixels holds " + std::to_string(mask.pixels.size()));
+                       " pixels holds " + std::to_string(mask.pixels.size()));
   }
   for (const Triangle& triangle : mesh.triangles)
   {

@@ -55,8 +55,8 @@ void checkView(const Mesh& mesh, const View& view)
   if (image.width < 1 || image.height < 1 ||
     image.pixels.size() != std::size_t(image.width) * std::size_t(image.height))
   {
-    throw InvalidInput("view " + view.name + ": " + std::to_string(image.pixels.size()) + " pixels in an image of " +
-      std::to_string(image.width) + " x " + std::to_string(image.height));
+    throw InvalidInput("view " + view.name + ": " + std::to_string(image.pixels.size()) +
+      " pixels in an image of " + std::to_string(image.width) + " x " + std::to_string(image.height));
   }
   // Rendering throws where a point does not project to finite numbers, and loops must not throw.
   for (const Vector3& p : mesh.points)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * How well does a mesh explain the silhouettes? It is rendered in each view (SilhouetteRendering.h) and compared
- * with that view's silhouette, pixel by pixel.
+ * How well does a mesh explain the silhouettes? It is rendered in each view (SilhouetteRendering.h) and
+ * compared with that view's silhouette, pixel by pixel.
  */
 #pragma once
 
@@ -32,9 +32,10 @@ struct ViewAgreement
 };
 
 /**
- * The agreement in each view, in the views' order. Throws InvalidInput for an invalid mesh, a view without pixels
- * or with a pixel array of the wrong length (the message names the view) or a projection that is not finite;
- * Cancelled. Views are worked on side by side. Cost: a rendering and a pass over the pixels for each view.
+ * The agreement in each view, in the views' order. Throws InvalidInput for an invalid mesh, a view without
+ * pixels or with a pixel array of the wrong length (the message names the view) or a projection that is not
+ * finite; Cancelled. Views are worked on side by side. Cost: a rendering and a pass over the pixels for each
+ * view.
  */
 std::vector<ViewAgreement> compareSilhouettes(
   const Mesh& mesh, const std::vector<View>& views, Execution& execution);

@@ -51,13 +51,17 @@ std::vector<Vector3> projectPoints(const Mesh& mesh, const Projection& projectio
     result.push_back(projectPoint(projection, p));
     if (!result.back().allFinite())
     {
-      throw InvalidInput("point " + std::to_string(result.size() - 1) + " does not project to finite numbers");
+      throw InvalidInput(
+        "point " + std::to_string(result.size() - 1) + " does not project to finite numbers");
     }
   }
   return result;
 }
 
-/** The part of the triangle in front of w = nearPlane. Ends of cut edges are ordered, so that neighbours agree. */
+/**
+ * The part of the triangle in front of w = nearPlane. Ends of cut edges are ordered, so that neighbours
+ * agree.
+ */
 Polygon cutByNearPlane(const std::vector<Vector3>& points, const Triangle& triangle, double nearPlane)
 {
   Polygon result;
@@ -106,7 +110,8 @@ double crossing(Vector2 p, Vector2 q, double row)
 /** The least and greatest column of the polygon on one row. */
 std::array<double, 2> rowSpan(const Polygon& polygon, double row)
 {
-  std::array<double, 2> span{ std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() };
+  std::array<double, 2> span{ std::numeric_limits<double>::infinity(),
+    -std::numeric_limits<double>::infinity() };
   const auto include = [&span](double column)
   {
     span[0] = std::min(span[0], column);

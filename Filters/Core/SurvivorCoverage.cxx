@@ -24,6 +24,29 @@ using Corners = std::array<Point, 3>;
 constexpr std::size_t Block = 2048; ///< triangles whose ray hits are written to one place
 constexpr std::size_t Batches = 8;  ///< times that a run asks whether it is cancelled
 
+/** The lattice's planes and its cells' centres along each axis, as Lattice::coordinate has them. */
+struct Grid
+{
+  explicit Grid(const Lattice& lattice)
+    : cells(lattice.cells())
+    , edge(lattice.leafEdge())
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (std::int32_t t = 0; t <= this->cells; ++t)
+      {
+        this->plane[axis].push_back(lattice.coordinate(axis, t));
+        this->centre[axis].push_back(lattice.coordinate(axis, t + 0.5));
+      }
+    }
+  }
+
+  std::int32_t cells;
+  double edge;
+  std::array<std::vector<double>, 3> plane;
+  std::array<std::vector<double>, 3> centre;
+};
+
 /** Cells [first, last) along an axis. */
 struct CellRange
 {
@@ -31,7 +54,9 @@ struct CellRange
   std::int32_t last = 0;
 };
 
-/** The least t in 0 to n for which `holds`, which is false and then true; `guess` may be off. n where none. */
+/**
+ * The least t in 0 to n for which `holds`, which is false and then true; `guess` may be off. n where none.
+ */
 template <typename Holds>
 std::int32_t firstThat(std::int32_t n, double guess, Holds&& holds)
 {
@@ -47,22 +72,21 @@ std::int32_t firstThat(std::int32_t n, double guess, Holds&& holds)
   return t;
 }
 
-/** The cells whose open interval meets [low, high]; the lattice planes are as Lattice::coordinate has them. */
-CellRange cellsMet(const Lattice& lattice, int axis, double low, double high)
+/** The cells whose open interval meets [low, high]. */
+CellRange cellsMet(const Grid& grid, int axis, double low, double high)
 {
-  const double origin = lattice.root.origin[axis];
-  const double edge = lattice.leafEdge();
-  const std::int32_t n = lattice.cells();
+  const std::vector<double>& plane = grid.plane[axis];
   CellRange range;
-  range.first = firstThat(n, std::floor((low - origin) / edge),
-    [&](std::int32_t t) { return lattice.coordinate(axis, t + 1) > low; });
-  range.last = firstThat(n, std::ceil((high - origin) / edge),
-    [&](std::int32_t t) { return lattice.coordinate(axis, t) >= high; });
+  range.first = firstThat(grid.cells, std::floor((low - plane[0]) / grid.edge),
+    [&](std::int32_t t) { return plane[t + 1] > low; });
+  range.last = firstThat(grid.cells, std::ceil((high - plane[0]) / grid.edge),
+    [&](std::int32_t t) { return plane[t] >= high; });
   return range;
 }
 
 /** Are all corners of the rectangle on one side of the directed line, or on it? -1 right, 1 left, 0 no. */
-int sideOfLine(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& low, const Eigen::Vector2d& high)
+int sideOfLine(
+  const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& low, const Eigen::Vector2d& high)
 {
   // The corners farthest to the left and to the right of the line's direction.
   const Eigen::Vector2d left(q[1] > p[1] ? low[0] : high[0], q[0] > p[0] ? high[1] : low[1]);
@@ -111,13 +135,28 @@ bool planeSeparates(const Corners& t, const Point& low, const Point& high)
   return above != below;
 }
 
+bool strictlyWithin(const Point& p, const Point& low, const Point& high)
+{
+  return (p.array() > low.array()).all() && (p.array() < high.array()).all();
+}
+
 /**
  * Triangle and open box are apart iff one of the separating axes of box and triangle (three of the box, the
- * triangle's normal, nine cross products of edges) has them apart, touching allowed. The nine are lines in the
- * plane, seen along an axis. The three of the box are known not to separate.
+ * triangle's normal, nine cross products of edges) has them apart, touching allowed. The nine are lines in
+ * the plane, seen along an axis.
  */
 bool meetsOpenBox(const Corners& t, const Point& low, const Point& high)
 {
+  if (strictlyWithin(t[0], low, high) || strictlyWithin(t[1], low, high) || strictlyWithin(t[2], low, high))
+  {
+    return true;
+  }
+  const Point least = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
+  const Point greatest = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+  if ((least.array() >= high.array()).any() || (greatest.array() <= low.array()).any())
+  {
+    return false;
+  }
   for (int axis = 0; axis < 3; ++axis)
   {
     if (edgeSeparates(axis, t, low, high))
@@ -130,37 +169,32 @@ bool meetsOpenBox(const Corners& t, const Point& low, const Point& high)
 
 using Cells = std::array<CellRange, 3>;
 
-Cells cellsOfTriangle(const Lattice& lattice, const Corners& t)
+Cells cellsOfTriangle(const Grid& grid, const Corners& t)
 {
   Cells cells;
   for (int axis = 0; axis < 3; ++axis)
   {
     const auto [low, high] = std::minmax({ t[0][axis], t[1][axis], t[2][axis] });
-    cells[axis] = cellsMet(lattice, axis, low, high);
+    cells[axis] = cellsMet(grid, axis, low, high);
   }
   return cells;
 }
 
-bool liesWithin(const Lattice& lattice, const Cells& cells, const Corners& t)
+/** Does the triangle meet the open cube of a block of cells, each of which its box meets on every axis? */
+bool meetsBlock(const Grid& grid, const Cells& cells, bool oneCell, const Corners& t)
 {
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double low = lattice.coordinate(axis, cells[axis].first);
-    const double high = lattice.coordinate(axis, cells[axis].last);
-    for (const Point& p : t)
-    {
-      if (p[axis] < low || p[axis] > high)
-      {
-        return false;
-      }
-    }
-  }
-  return true;
+  const Point low(
+    grid.plane[0][cells[0].first], grid.plane[1][cells[1].first], grid.plane[2][cells[2].first]);
+  const Point high(grid.plane[0][cells[0].last], grid.plane[1][cells[1].last], grid.plane[2][cells[2].last]);
+  // A triangle within one closed cell that lies in none of its faces has its centroid in the open one.
+  const auto within = [&](const Point& p)
+  { return (p.array() >= low.array()).all() && (p.array() <= high.array()).all(); };
+  return (oneCell && within(t[0]) && within(t[1]) && within(t[2])) || meetsOpenBox(t, low, high);
 }
 
 /** Calls visit(cell) for the cells of the block whose open cube the triangle meets; halves the block. */
 template <typename Visit>
-void visitCellsMet(const Lattice& lattice, const Cells& cells, const Corners& t, Visit&& visit)
+void visitCellsMet(const Grid& grid, const Cells& cells, const Corners& t, Visit&& visit)
 {
   int longest = 0;
   std::int32_t size = 0;
@@ -174,24 +208,20 @@ void visitCellsMet(const Lattice& lattice, const Cells& cells, const Corners& t,
     longest = length > size ? axis : longest;
     size = std::max(size, length);
   }
-  const LatticePoint low{ cells[0].first, cells[1].first, cells[2].first };
-  // A triangle within one closed cell that lies in none of its faces has its centroid in the open one.
-  const bool met = (size == 1 && liesWithin(lattice, cells, t)) ||
-    triangleMeetsOpenCells(lattice, low, { cells[0].last, cells[1].last, cells[2].last }, t[0], t[1], t[2]);
-  if (!met)
+  if (!meetsBlock(grid, cells, size == 1, t))
   {
     return;
   }
   if (size == 1)
   {
-    visit(low);
+    visit(LatticePoint{ cells[0].first, cells[1].first, cells[2].first });
     return;
   }
   Cells half = cells;
   half[longest].last = cells[longest].first + size / 2;
-  visitCellsMet(lattice, half, t, visit);
+  visitCellsMet(grid, half, t, visit);
   half[longest] = { cells[longest].first + size / 2, cells[longest].last };
-  visitCellsMet(lattice, half, t, visit);
+  visitCellsMet(grid, half, t, visit);
 }
 
 /** An octant's row along x and its place in it, in one number that sorts by row. */
@@ -201,8 +231,8 @@ std::uint64_t rowKey(std::int32_t i, std::int32_t j, std::int32_t k)
 }
 
 /**
- * Seen along x: on which side of line p q is the row's centre, moved by (e, e^2) for an infinitely small e > 0?
- * Never 0 but for p = q, and the opposite for q p.
+ * Seen along x: on which side of line p q is the row's centre, moved by (e, e^2) for an infinitely small e >
+ * 0? Never 0 but for p = q, and the opposite for q p.
  */
 int sideOfEdge(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& centre)
 {
@@ -223,7 +253,7 @@ int sideOfEdge(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::
  * t - 1 of that row lie before it.
  */
 template <typename Hit>
-void visitRowHits(const Lattice& lattice, const Corners& t, Hit&& hit)
+void visitRowHits(const Grid& grid, const Corners& t, Hit&& hit)
 {
   const auto flat = [](const Point& p) { return Eigen::Vector2d(p[1], p[2]); };
   const std::array<Eigen::Vector2d, 3> f{ flat(t[0]), flat(t[1]), flat(t[2]) };
@@ -232,24 +262,24 @@ void visitRowHits(const Lattice& lattice, const Corners& t, Hit&& hit)
   {
     return;
   }
-  const Cells cells = cellsOfTriangle(lattice, t);
+  const Cells cells = cellsOfTriangle(grid, t);
   const Point normal = (t[1] - t[0]).cross(t[2] - t[0]);
   for (std::int32_t k = cells[2].first; k < cells[2].last; ++k)
   {
     for (std::int32_t j = cells[1].first; j < cells[1].last; ++j)
     {
-      const Eigen::Vector2d centre(lattice.coordinate(1, j + 0.5), lattice.coordinate(2, k + 0.5));
+      const Eigen::Vector2d centre(grid.centre[1][j], grid.centre[2][k]);
       if (sideOfEdge(f[0], f[1], centre) != turn || sideOfEdge(f[1], f[2], centre) != turn ||
         sideOfEdge(f[2], f[0], centre) != turn)
       {
         continue;
       }
-      const double x = t[0][0] -
-        ((centre[0] - t[0][1]) * normal[1] + (centre[1] - t[0][2]) * normal[2]) / normal[0];
+      const Eigen::Vector2d offset = centre - f[0];
+      const double x = t[0][0] - (offset[0] * normal[1] + offset[1] * normal[2]) / normal[0];
       const auto behind = [&](std::int32_t i)
-      { return orient3d(t[0], t[1], t[2], { lattice.coordinate(0, i + 0.5), centre[0], centre[1] }) == turn; };
-      const double guess = std::ceil((x - lattice.root.origin[0]) / lattice.leafEdge() - 0.5);
-      hit(firstThat(lattice.cells(), guess, behind), j, k);
+      { return orient3d(t[0], t[1], t[2], { grid.centre[0][i], centre[0], centre[1] }) == turn; };
+      const double guess = std::ceil((x - grid.centre[0][0]) / grid.edge);
+      hit(firstThat(grid.cells, guess, behind), j, k);
     }
   }
 }
@@ -272,7 +302,7 @@ Corners cornersOf(const Mesh& mesh, std::size_t t)
   return { mesh.points[triangle[0]], mesh.points[triangle[1]], mesh.points[triangle[2]] };
 }
 
-void markCrossed(const Octree& octree, const Lattice& lattice, const Mesh& mesh, Execution& execution,
+void markCrossed(const Octree& octree, const Grid& grid, const Mesh& mesh, Execution& execution,
   std::vector<Coverage>& coverage)
 {
   const std::vector<std::uint64_t>& codes = octree.last().code;
@@ -298,7 +328,7 @@ void markCrossed(const Octree& octree, const Lattice& lattice, const Mesh& mesh,
         for (std::size_t t = begin + first; t < begin + last; ++t)
         {
           const Corners corners = cornersOf(mesh, t);
-          visitCellsMet(lattice, cellsOfTriangle(lattice, corners), corners, mark);
+          visitCellsMet(grid, cellsOfTriangle(grid, corners), corners, mark);
         }
       });
   }
@@ -309,7 +339,7 @@ void markCrossed(const Octree& octree, const Lattice& lattice, const Mesh& mesh,
 }
 
 /** All places, sorted, where the surface passes a row of centres. */
-std::vector<std::uint64_t> rowHits(const Lattice& lattice, const Mesh& mesh, Execution& execution)
+std::vector<std::uint64_t> rowHits(const Grid& grid, const Mesh& mesh, Execution& execution)
 {
   const std::size_t count = mesh.triangles.size();
   std::vector<std::vector<std::uint64_t>> blocks((count + Block - 1) / Block);
@@ -324,7 +354,7 @@ std::vector<std::uint64_t> rowHits(const Lattice& lattice, const Mesh& mesh, Exe
         {
           for (std::size_t t = b * Block; t < std::min(count, (b + 1) * Block); ++t)
           {
-            visitRowHits(lattice, cornersOf(mesh, t), [&](std::int32_t i, std::int32_t j, std::int32_t k)
+            visitRowHits(grid, cornersOf(mesh, t), [&](std::int32_t i, std::int32_t j, std::int32_t k)
               { blocks[b].push_back(rowKey(i, j, k)); });
           }
         }
@@ -339,7 +369,7 @@ std::vector<std::uint64_t> rowHits(const Lattice& lattice, const Mesh& mesh, Exe
   return hits;
 }
 
-void markEnclosed(const Octree& octree, const Lattice& lattice, const Mesh& mesh, Execution& execution,
+void markEnclosed(const Octree& octree, const Grid& grid, const Mesh& mesh, Execution& execution,
   std::vector<Coverage>& coverage)
 {
   std::vector<std::size_t> open;
@@ -354,7 +384,7 @@ void markEnclosed(const Octree& octree, const Lattice& lattice, const Mesh& mesh
   {
     return;
   }
-  const std::vector<std::uint64_t> hits = rowHits(lattice, mesh, execution);
+  const std::vector<std::uint64_t> hits = rowHits(grid, mesh, execution);
   execution.forRanges(open.size(), 1024,
     [&](std::size_t first, std::size_t last)
     {
@@ -363,7 +393,7 @@ void markEnclosed(const Octree& octree, const Lattice& lattice, const Mesh& mesh
         const LatticePoint cell = fromMorton(octree.last().code[open[o]]);
         // Hits of this row that lie behind the centre: those of i + 1 to the row's end.
         const auto behind = std::upper_bound(hits.begin(), hits.end(), rowKey(cell.i, cell.j, cell.k));
-        const auto end = std::upper_bound(behind, hits.end(), rowKey(lattice.cells(), cell.j, cell.k));
+        const auto end = std::upper_bound(behind, hits.end(), rowKey(grid.cells, cell.j, cell.k));
         if ((end - behind) % 2 != 0)
         {
           coverage[open[o]] = Coverage::Enclosed;
@@ -377,26 +407,18 @@ void markEnclosed(const Octree& octree, const Lattice& lattice, const Mesh& mesh
 bool triangleMeetsOpenCells(const Lattice& lattice, const LatticePoint& low, const LatticePoint& high,
   const Point& a, const Point& b, const Point& c)
 {
-  const Point lowest = lattice.position(low);
-  const Point highest = lattice.position(high);
-  const Point least = a.cwiseMin(b).cwiseMin(c);
-  const Point greatest = a.cwiseMax(b).cwiseMax(c);
-  if ((least.array() >= highest.array()).any() || (greatest.array() <= lowest.array()).any())
-  {
-    return false;
-  }
-  return meetsOpenBox({ a, b, c }, lowest, highest);
+  return meetsOpenBox({ a, b, c }, lattice.position(low), lattice.position(high));
 }
 
 std::vector<Coverage> survivorCoverage(const Octree& octree, const Mesh& mesh, Execution& execution)
 {
   checkMesh(mesh);
-  const Lattice lattice = lastLattice(octree);
+  const Grid grid(lastLattice(octree));
   std::vector<Coverage> coverage(octree.last().size(), Coverage::Lost);
   Phase crossing(execution, 0.0, 0.5);
-  markCrossed(octree, lattice, mesh, crossing, coverage);
+  markCrossed(octree, grid, mesh, crossing, coverage);
   Phase enclosing(execution, 0.5, 1.0);
-  markEnclosed(octree, lattice, mesh, enclosing, coverage);
+  markEnclosed(octree, grid, mesh, enclosing, coverage);
   execution.progress(1.0);
   return coverage;
 }

@@ -45,12 +45,13 @@ public:
   {
   }
 
-  CoveringResult run()
+  CoveringResult run(const std::vector<Bridge>& bridges)
   {
     this->findLost();
     this->coverAll();
     this->joinWithinCells();
     this->joinAcrossCorners();
+    this->build(bridges);
     return this->Result;
   }
 
@@ -69,7 +70,7 @@ private:
   {
     for (std::uint32_t cell = 0; cell < this->shell().cells.size(); ++cell)
     {
-      if (!this->covered(cell))
+      if (this->Labels.isSurvivor(cell) && !this->covered(cell))
       {
         this->Lost.push_back(cell);
       }
@@ -185,9 +186,10 @@ private:
       {
         const auto& cells = this->shell().cells;
         const auto at = std::lower_bound(cells.begin(), cells.end(), mortonCode(cell));
-        if (at != cells.end() && *at == mortonCode(cell) && !this->covered(std::uint32_t(at - cells.begin())))
+        const auto number = std::uint32_t(at - cells.begin());
+        if (at != cells.end() && *at == mortonCode(cell) && this->Labels.isSurvivor(number) && !this->covered(number))
         {
-          list.push_back(std::uint32_t(at - cells.begin()));
+          list.push_back(number);
         }
       }
     }
@@ -256,7 +258,10 @@ private:
     this->Unsettled.clear();
     for (std::uint32_t cell = 0; cell < this->shell().cells.size(); ++cell)
     {
-      this->joinWithin(cell);
+      if (this->Labels.isSurvivor(cell))
+      {
+        this->joinWithin(cell);
+      }
     }
     this->settle();
   }
@@ -308,6 +313,22 @@ private:
     }
   }
 
+  void build(const std::vector<Bridge>& bridges)
+  {
+    for (const auto& bridge : bridges)
+    {
+      for (const std::uint64_t point : bridge)
+      {
+        const auto corner = this->shell().find(point);
+        if (corner >= 0 && !this->inside(std::uint32_t(corner)))
+        {
+          this->add(std::uint32_t(corner));
+        }
+      }
+    }
+    this->settle();
+  }
+
   LatticeLabels& Labels;
   LatticeRegions Solid;
   std::vector<std::uint32_t> Lost;
@@ -317,9 +338,9 @@ private:
 
 } // namespace
 
-CoveringResult coverSurvivors(LatticeLabels& labels)
+CoveringResult coverSurvivors(LatticeLabels& labels, const std::vector<Bridge>& bridges)
 {
-  return Covering(labels).run();
+  return Covering(labels).run(bridges);
 }
 
 } // namespace silhouette

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "LatticeLabels.h"
+#include "SurvivorBridges.h"
 
 namespace silhouette
 {
@@ -20,8 +21,9 @@ struct CoveringResult
 /**
  * Corners that change no topology (simple ones) come first, then those that join components, then those that found one,
  * and only where none of these is left any other; among equals the corner with most inside votes, then the one
- * that covers most octants, then the first in lattice order. Cost: linear in the lost octants.
+ * that covers most octants, then the first in lattice order. The bridges' points, all of them corners of the
+ * shell, are labelled inside at the end. Cost: linear in the lost octants.
  */
-CoveringResult coverSurvivors(LatticeLabels& labels);
+CoveringResult coverSurvivors(LatticeLabels& labels, const std::vector<Bridge>& bridges);
 
 } // namespace silhouette

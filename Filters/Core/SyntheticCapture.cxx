@@ -40,7 +40,7 @@ BoundingSphere boundingSphere(const Mesh& mesh)
       box.extend(mesh.points[i]);
     }
   }
-  BoundingSphere sphere{ box.center(), 0.0 };
+  BoundingSphere sphere{box.center(), 0.0};
   for (const Triangle& triangle : mesh.triangles)
   {
     for (const std::int32_t i : triangle)
@@ -76,7 +76,7 @@ Camera lookAt(const BoundingSphere& sphere, double azimuth, double elevation, in
   constexpr double distance = 4.0; // radii
   constexpr double filled = 0.8;
   const Vector3 outward(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-    std::sin(elevation));
+                        std::sin(elevation));
   const Vector3 right = Vector3::UnitZ().cross(outward).normalized();
   Camera camera;
   camera.rotation << right.transpose(), right.cross(outward).transpose(), -outward.transpose();
@@ -98,7 +98,7 @@ std::vector<Camera> ringCameras(const Mesh& truth, int views, int width, int hei
   const int high = views / 4;
   const int below = 3 * views / 20;
   // The first view sees a jug's handle a little from the front.
-  const Ring rings[] = { { 15.0, views - high - below, -70.0 }, { 45.0, high, -60.0 }, { -20.0, below, -45.0 } };
+  const Ring rings[] = {{15.0, views - high - below, -70.0}, {45.0, high, -60.0}, {-20.0, below, -45.0}};
   const BoundingSphere sphere = boundingSphere(truth);
   std::vector<Camera> cameras;
   for (const Ring& ring : rings)
@@ -121,9 +121,11 @@ Projection reportedProjection(Camera camera, const SyntheticCaptureOptions& opti
   if (options.noiseRotation > 0.0)
   {
     const std::uint64_t turn = noiseKey(options.seed, NoiseKind::Rotation, view);
-    const Vector3 degrees = options.noiseRotation * Vector3(gaussianAt(turn, 0), gaussianAt(turn, 1), gaussianAt(turn, 2));
+    const Vector3 degrees =
+        options.noiseRotation * Vector3(gaussianAt(turn, 0), gaussianAt(turn, 1), gaussianAt(turn, 2));
     const Vector3 axis = degrees.normalized();
-    camera.rotation = Eigen::AngleAxisd(degrees.norm() * Pi / 180.0, axis).toRotationMatrix() * camera.rotation;
+    camera.rotation =
+        Eigen::AngleAxisd(degrees.norm() * Pi / 180.0, axis).toRotationMatrix() * camera.rotation;
   }
   return camera.projection();
 }
@@ -132,8 +134,8 @@ void requireRange(const char* option, double value, double least, double greates
 {
   if (!(value >= least && value <= greatest))
   {
-    throw InvalidInput(std::string(option) + " " + std::to_string(value) + " is outside " + std::to_string(least) +
-      " to " + std::to_string(greatest));
+    throw InvalidInput(std::string(option) + " " + std::to_string(value) + " is outside " +
+                       std::to_string(least) + " to " + std::to_string(greatest));
   }
 }
 
@@ -141,8 +143,8 @@ void requireCount(const char* option, int value, int least, int greatest)
 {
   if (value < least || value > greatest)
   {
-    throw InvalidInput(std::string(option) + " " + std::to_string(value) + " is outside " + std::to_string(least) +
-      " to " + std::to_string(greatest));
+    throw InvalidInput(std::string(option) + " " + std::to_string(value) + " is outside " +
+                       std::to_string(least) + " to " + std::to_string(greatest));
   }
 }
 
@@ -184,7 +186,8 @@ std::string viewName(std::size_t view)
   return "view_" + std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits + ".png";
 }
 
-BinaryImage noisyMask(const BinaryImage& clean, const SyntheticCaptureOptions& options, std::size_t view, bool cut)
+BinaryImage noisyMask(const BinaryImage& clean, const SyntheticCaptureOptions& options, std::size_t view,
+                      bool cut)
 {
   const auto key = [&](NoiseKind kind) { return noiseKey(options.seed, kind, view); };
   BinaryImage mask = addContourNoise(clean, options.noiseContour, key(NoiseKind::Contour));
@@ -208,7 +211,8 @@ std::vector<Projection> syntheticCameras(const Mesh& truth, int views, int width
   return result;
 }
 
-SyntheticCapture synthesizeCapture(const Mesh& truth, const SyntheticCaptureOptions& options, Execution& execution)
+SyntheticCapture synthesizeCapture(const Mesh& truth, const SyntheticCaptureOptions& options,
+                                   Execution& execution)
 {
   validate(options);
   const std::vector<Camera> cameras = ringCameras(truth, options.views, options.width, options.height);
@@ -218,7 +222,8 @@ SyntheticCapture synthesizeCapture(const Mesh& truth, const SyntheticCaptureOpti
   capture.width = options.width;
   capture.height = options.height;
   capture.views.resize(options.views);
-  const auto makeView = [&](std::size_t v) {
+  const auto makeView = [&](std::size_t v)
+  {
     SyntheticView& view = capture.views[v];
     view.name = viewName(v);
     view.trueProjection = cameras[v].projection();
@@ -231,12 +236,14 @@ SyntheticCapture synthesizeCapture(const Mesh& truth, const SyntheticCaptureOpti
   for (std::size_t first = 0; first < cameras.size(); first += batch)
   {
     execution.checkpoint(double(first) / double(cameras.size()));
-    execution.forRanges(std::min(batch, cameras.size() - first), 1, [&](std::size_t from, std::size_t to) {
-      for (std::size_t v = first + from; v < first + to; ++v)
-      {
-        makeView(v);
-      }
-    });
+    execution.forRanges(std::min(batch, cameras.size() - first), 1,
+                        [&](std::size_t from, std::size_t to)
+                        {
+                          for (std::size_t v = first + from; v < first + to; ++v)
+                          {
+                            makeView(v);
+                          }
+                        });
   }
   execution.checkpoint(1.0);
   return capture;

@@ -33,7 +33,8 @@ double smoothMinimum(double a, double b, double width)
   return std::min(a, b) - 0.25 * width * h * h;
 }
 
-/** A polyline of segments of about equal length: what the jug's profile, its handle and each twig are drawn with. */
+/** A polyline of segments of about equal length: what the jug's profile, its handle and each twig are drawn
+ * with. */
 class Curve
 {
 public:
@@ -60,8 +61,8 @@ public:
       const double t = x - double(s);
       const double u = 1.0 - t;
       samples.push_back((u * u * u * c[s] + (3 * t * t * t - 6 * t * t + 4) * c[s + 1] +
-                          (3 * u * u * u - 6 * u * u + 4) * c[s + 2] + t * t * t * c[s + 3]) /
-        6.0);
+                         (3 * u * u * u - 6 * u * u + 4) * c[s + 2] + t * t * t * c[s + 3]) /
+                        6.0);
     }
     this->resample(samples, segments);
   }
@@ -77,13 +78,14 @@ public:
       const double distance = (p - this->Points[i]).norm();
       if (distance < best.distance)
       {
-        best = { distance, double(i) / double(segments), i };
+        best = {distance, double(i) / double(segments), i};
       }
     }
     for (std::size_t i = 0; i < segments;)
     {
       const Eigen::Vector3d& a = this->Points[i];
-      // Going along the curve brings it nearer by at most the length gone, so that far stretches are leapt over.
+      // Going along the curve brings it nearer by at most the length gone, so that far stretches are leapt
+      // over.
       const double surplus = (p - a).norm() - best.distance;
       if (surplus >= this->LongestSegment)
       {
@@ -95,7 +97,7 @@ public:
       const double distance = (p - (a + t * ab)).norm();
       if (distance < best.distance)
       {
-        best = { distance, (double(i) + t) / double(segments), i };
+        best = {distance, (double(i) + t) / double(segments), i};
       }
       ++i;
     }
@@ -137,13 +139,26 @@ class JugField : public DistanceField
 {
 public:
   JugField()
-    : Profile({ { 0, 0, -0.82 }, { 0.22, 0, -0.82 }, { 0.40, 0, -0.89 }, { 0.49, 0, -0.80 }, { 0.38, 0, -0.70 },
-                { 0.56, 0, -0.57 }, { 0.72, 0, -0.22 }, { 0.62, 0, 0.14 }, { 0.36, 0, 0.34 }, { 0.24, 0, 0.54 },
-                { 0.27, 0, 0.72 }, { 0.35, 0, 0.85 } },
-        192)
-    , Handle({ { -0.26, 0, 0.60 }, { -0.44, 0, 0.80 }, { -0.80, 0, 0.82 }, { -0.92, 0, 0.46 }, { -0.82, 0, 0.16 },
-               { -0.60, 0, 0.00 } },
-        96)
+      : Profile({{0, 0, -0.82},
+                 {0.22, 0, -0.82},
+                 {0.40, 0, -0.89},
+                 {0.49, 0, -0.80},
+                 {0.38, 0, -0.70},
+                 {0.56, 0, -0.57},
+                 {0.72, 0, -0.22},
+                 {0.62, 0, 0.14},
+                 {0.36, 0, 0.34},
+                 {0.24, 0, 0.54},
+                 {0.27, 0, 0.72},
+                 {0.35, 0, 0.85}},
+                192),
+        Handle({{-0.26, 0, 0.60},
+                {-0.44, 0, 0.80},
+                {-0.80, 0, 0.82},
+                {-0.92, 0, 0.46},
+                {-0.82, 0, 0.16},
+                {-0.60, 0, 0.00}},
+               96)
   {
   }
 
@@ -188,14 +203,15 @@ private:
   Curve Handle;
 };
 
-/** Bent, tapering tubes: a stem, branches on it and twigs on these, each turned from the last by the golden angle. */
+/** Bent, tapering tubes: a stem, branches on it and twigs on these, each turned from the last by the golden
+ * angle. */
 class TwigField : public DistanceField
 {
 public:
   TwigField()
   {
     const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-    this->grow({ -0.04, 0.02, -0.92 }, up, { 0.05, -0.03, 0.0 }, 1.80, 0.0070, 0.0060);
+    this->grow({-0.04, 0.02, -0.92}, up, {0.05, -0.03, 0.0}, 1.80, 0.0070, 0.0060);
     const double golden = Pi * (3.0 - std::sqrt(5.0));
     for (int i = 0; i < 9; ++i)
     {
@@ -208,7 +224,8 @@ public:
       {
         const Eigen::Vector3d sideways = up.cross(outward) * (j % 2 == 0 ? 1.0 : -1.0);
         const Eigen::Vector3d heading = sideways + 0.6 * outward + (0.7 - 0.5 * j) * up;
-        this->grow(this->at(branch, 0.36 + 0.19 * j), heading, 0.05 * up, 0.36 * length - 0.04 * j, 0.0055, 0.0050);
+        this->grow(this->at(branch, 0.36 + 0.19 * j), heading, 0.05 * up, 0.36 * length - 0.04 * j, 0.0055,
+                   0.0050);
       }
     }
   }
@@ -244,19 +261,19 @@ private:
   };
 
   /** A tube that sets out from `start` along `heading`, at its end bent aside by `bend` (a world length). */
-  void grow(const Eigen::Vector3d& start, const Eigen::Vector3d& heading, const Eigen::Vector3d& bend, double length,
-    double startRadius, double endRadius)
+  void grow(const Eigen::Vector3d& start, const Eigen::Vector3d& heading, const Eigen::Vector3d& bend,
+            double length, double startRadius, double endRadius)
   {
     const Eigen::Vector3d step = length / 3.0 * heading.normalized();
-    const Curve axis({ start, start + step - 0.4 * bend, start + 2.0 * step, start + 3.0 * step + bend },
-      std::max(12, int(length / 0.015)));
+    const Curve axis({start, start + step - 0.4 * bend, start + 2.0 * step, start + 3.0 * step + bend},
+                     std::max(12, int(length / 0.015)));
     const Eigen::Vector3d centre = axis.point(axis.segments() / 2);
     double reach = 0.0;
     for (std::size_t i = 0; i <= axis.segments(); ++i)
     {
       reach = std::max(reach, (axis.point(i) - centre).norm());
     }
-    this->Tubes.push_back({ axis, startRadius, endRadius, centre, reach });
+    this->Tubes.push_back({axis, startRadius, endRadius, centre, reach});
   }
 
   Eigen::Vector3d at(std::size_t tube, double along) const
@@ -293,7 +310,7 @@ Mesh icosahedron()
         if (adjacent(a, b) && adjacent(b, c) && adjacent(c, a))
         {
           const bool outwards = mesh.points[a].dot(mesh.points[b].cross(mesh.points[c])) > 0.0;
-          mesh.triangles.push_back(outwards ? Triangle{ a, b, c } : Triangle{ a, c, b });
+          mesh.triangles.push_back(outwards ? Triangle{a, b, c} : Triangle{a, c, b});
         }
       }
     }
@@ -301,48 +318,57 @@ Mesh icosahedron()
   return mesh;
 }
 
-/** Each edge of the icosahedron cut into `parts`, the points pushed out to the sphere. */
-Mesh sphere(int parts)
+/** A geodesic sphere: the points of a lattice on each face of the icosahedron, pushed out. */
+class GeodesicSphere
 {
-  const Mesh base = icosahedron();
-  Mesh mesh;
-  std::map<std::array<int, 6>, std::int32_t> names; // the base points and their weights name a point, whatever the face
-  for (const Triangle& face : base.triangles)
+public:
+  Mesh operator()(int parts)
   {
-    const auto point = [&](int b, int c) {
-      std::array<std::array<int, 2>, 3> w = { { { face[0], parts - b - c }, { face[1], b }, { face[2], c } } };
-      for (auto& entry : w)
-      {
-        entry[0] = entry[1] > 0 ? entry[0] : -1;
-      }
-      std::sort(w.begin(), w.end());
-      const std::array<int, 6> name = { w[0][0], w[0][1], w[1][0], w[1][1], w[2][0], w[2][1] };
-      const auto [found, isNew] = names.emplace(name, std::int32_t(mesh.points.size()));
-      if (isNew)
-      {
-        Eigen::Vector3d p = Eigen::Vector3d::Zero();
-        for (const auto& entry : w)
-        {
-          p += entry[1] > 0 ? Eigen::Vector3d(entry[1] * base.points[entry[0]]) : Eigen::Vector3d::Zero();
-        }
-        mesh.points.push_back(sphereRadius * p.normalized());
-      }
-      return found->second;
-    };
-    for (int b = 0; b < parts; ++b)
+    for (const Triangle& face : this->Base.triangles)
     {
-      for (int c = 0; b + c < parts; ++c)
+      const auto point = [&](int b, int c) { return this->point(face, {parts - b - c, b, c}); };
+      for (int b = 0; b < parts; ++b)
       {
-        mesh.triangles.push_back({ point(b, c), point(b + 1, c), point(b, c + 1) });
-        if (b + c + 1 < parts)
+        for (int c = 0; b + c < parts; ++c)
         {
-          mesh.triangles.push_back({ point(b + 1, c), point(b + 1, c + 1), point(b, c + 1) });
+          this->Result.triangles.push_back({point(b, c), point(b + 1, c), point(b, c + 1)});
+          if (b + c + 1 < parts)
+          {
+            this->Result.triangles.push_back({point(b + 1, c), point(b + 1, c + 1), point(b, c + 1)});
+          }
         }
       }
     }
+    return std::move(this->Result);
   }
-  return mesh;
-}
+
+private:
+  /** The point with these weights of the face's corners; both faces of an edge name its points alike. */
+  std::int32_t point(const Triangle& face, const std::array<int, 3>& weights)
+  {
+    std::array<std::array<int, 2>, 3> name; // base point, weight
+    for (int c = 0; c < 3; ++c)
+    {
+      name[c] = {weights[c] > 0 ? face[c] : -1, weights[c]};
+    }
+    std::sort(name.begin(), name.end());
+    const auto [found, isNew] = this->Names.emplace(name, std::int32_t(this->Result.points.size()));
+    if (isNew)
+    {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (const auto& [corner, weight] : name)
+      {
+        sum += weight > 0 ? Eigen::Vector3d(weight * this->Base.points[corner]) : Eigen::Vector3d::Zero();
+      }
+      this->Result.points.push_back(sphereRadius * sum.normalized());
+    }
+    return found->second;
+  }
+
+  Mesh Base = icosahedron();
+  std::map<std::array<std::array<int, 2>, 3>, std::int32_t> Names;
+  Mesh Result;
+};
 
 /** `around` quadrangles around the axis, `across` around the tube, each cut in two. */
 Mesh torus(int around, int across)
@@ -359,12 +385,12 @@ Mesh torus(int around, int across)
     {
       const double b = 2.0 * Pi * j / across;
       mesh.points.push_back((torusRingRadius + torusTubeRadius * std::cos(b)) * outward +
-        torusTubeRadius * std::sin(b) * axis);
+                            torusTubeRadius * std::sin(b) * axis);
       const std::int32_t j1 = (j + 1) % across;
       const std::int32_t i0 = i * across;
       const std::int32_t i1 = (i + 1) % around * across;
-      mesh.triangles.push_back({ i0 + j, i1 + j, i1 + j1 });
-      mesh.triangles.push_back({ i0 + j, i1 + j1, i0 + j1 });
+      mesh.triangles.push_back({i0 + j, i1 + j, i1 + j1});
+      mesh.triangles.push_back({i0 + j, i1 + j1, i0 + j1});
     }
   }
   return mesh;
@@ -387,14 +413,14 @@ Mesh syntheticShape(SyntheticShape shape, const SyntheticShapeOptions& options)
   const auto scaled = [&](int count) { return int(std::lround(count * finer)); };
   switch (shape)
   {
-    case SyntheticShape::Jug:
-      return contourField(JugField(), 2.0 / scaled(180));
-    case SyntheticShape::Sphere:
-      return sphere(scaled(64));
-    case SyntheticShape::Torus:
-      return torus(scaled(360), scaled(160));
-    case SyntheticShape::Twig:
-      return contourField(TwigField(), 2.0 / scaled(800));
+  case SyntheticShape::Jug:
+    return contourField(JugField(), 2.0 / scaled(180));
+  case SyntheticShape::Sphere:
+    return GeodesicSphere()(scaled(64));
+  case SyntheticShape::Torus:
+    return torus(scaled(360), scaled(160));
+  case SyntheticShape::Twig:
+    return contourField(TwigField(), 2.0 / scaled(800));
   }
   throw InvalidInput("synthetic shape " + std::to_string(int(shape)) + " is unknown");
 }

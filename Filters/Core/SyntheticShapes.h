@@ -3,8 +3,9 @@
  * Solids whose shape is known, as truth for tests, benchmarks and demonstrations.
  *
  * Every mesh is closed, oriented outwards, edge- and vertex-manifold, free of self-intersections, one piece,
- * and lies in the cube [-1, 1]^3 with the z axis upwards. The facets stray from the shape that they stand for
- * by at most a tenth of 2 / 512, a leaf of depth 9 in that cube.
+ * and lies in the cube [-1, 1]^3 with the z axis upwards. In leaves of depth 9 of that cube (2 / 512) the
+ * facets stray from the shape that they stand for by a tenth at most nearly everywhere, by a third at most in
+ * the jug's sharpest bends.
  */
 #pragma once
 
@@ -15,7 +16,7 @@ namespace silhouette
 
 enum class SyntheticShape : int
 {
-  Jug = 0,    ///< belly, neck, lip with a spout, open mouth (wall 0.072 thick) and a thin handle at -x: genus 1
+  Jug = 0, ///< belly, neck, lip with a spout, open mouth (wall 0.072 thick) and a thin handle at -x: genus 1
   Sphere = 1, ///< radius sphereRadius about the origin: genus 0
   Torus = 2,  ///< radii torusRingRadius and torusTubeRadius about the origin, axis torusAxis(): genus 1
   Twig = 3    ///< a bare twig of bent tubes 0.010 to 0.014 across, thinner than a depth-7 octant: genus 0
@@ -30,15 +31,16 @@ Eigen::Vector3d torusAxis();
 
 struct SyntheticShapeOptions
 {
-  /** Facets a unit length, relative to the default, 0.5 to 4; larger is finer, the faces grow with its square. */
+  /** Facets a unit length, relative to the default, 0.5 to 4; larger is finer, the faces grow with its
+   * square. */
   double refinement = 1.0;
 };
 
 /**
- * The shape's mesh. Sphere: a subdivided icosahedron. Torus: a regular grid of its two angles. Jug and twig: a
- * distance field contoured by marchingCubesTable() in the cells near the surface alone, with the vertices at
- * the field's roots on the lattice edges. The default costs less than two seconds.
- * Throws InvalidInput where the refinement is out of range or the shape is unknown.
+ * The shape's mesh. Sphere: a subdivided icosahedron. Torus: a regular grid of its two angles. Jug and twig:
+ * a distance field contoured by marchingCubesTable() in the cells near the surface alone, with the vertices
+ * at the field's roots on the lattice edges. The default costs less than two seconds. Throws InvalidInput
+ * where the refinement is out of range or the shape is unknown.
  */
 Mesh syntheticShape(SyntheticShape shape, const SyntheticShapeOptions& options = SyntheticShapeOptions());
 

@@ -62,8 +62,8 @@ bool segmentsMeetAlong(int axis, const Point& p, const Point& q, const Point& r,
   {
     return true;
   }
-  return (pr == 0 && onSegment(p, q, r)) || (ps == 0 && onSegment(p, q, s)) || (rp == 0 && onSegment(r, s, p)) ||
-    (rq == 0 && onSegment(r, s, q));
+  return (pr == 0 && onSegment(p, q, r)) || (ps == 0 && onSegment(p, q, s)) ||
+    (rp == 0 && onSegment(r, s, p)) || (rq == 0 && onSegment(r, s, q));
 }
 
 /** Closed segments, perhaps of length 0, anywhere in space. */
@@ -73,7 +73,8 @@ bool segmentsMeet(const Point& p, const Point& q, const Point& r, const Point& s
   {
     return false;
   }
-  for (const auto& three : { Corners{ &p, &q, &r }, Corners{ &p, &q, &s }, Corners{ &r, &s, &p }, Corners{ &r, &s, &q } })
+  for (const auto& three :
+    { Corners{ &p, &q, &r }, Corners{ &p, &q, &s }, Corners{ &r, &s, &p }, Corners{ &r, &s, &q } })
   {
     const int axis = spreadAxis(*three[0], *three[1], *three[2]);
     if (axis >= 0)
@@ -117,7 +118,8 @@ bool segmentMeetsTriangle(const Point& p, const Point& q, const Corners& t)
     {
       return segmentMeetsCoplanar(axis, p, q, t);
     }
-    return segmentsMeet(p, q, *t[0], *t[1]) || segmentsMeet(p, q, *t[1], *t[2]) || segmentsMeet(p, q, *t[2], *t[0]);
+    return segmentsMeet(p, q, *t[0], *t[1]) || segmentsMeet(p, q, *t[1], *t[2]) ||
+      segmentsMeet(p, q, *t[2], *t[0]);
   }
   // The segment reaches the plane in one point; the line through it passes all edges on one side, or touches.
   bool left = false;
@@ -135,7 +137,8 @@ bool segmentMeetsTriangle(const Point& p, const Point& q, const Corners& t)
 bool planeSeparates(const Corners& a, const Corners& b)
 {
   const int side = orient3d(*a[0], *a[1], *a[2], *b[0]);
-  return side != 0 && orient3d(*a[0], *a[1], *a[2], *b[1]) == side && orient3d(*a[0], *a[1], *a[2], *b[2]) == side;
+  return side != 0 && orient3d(*a[0], *a[1], *a[2], *b[1]) == side &&
+    orient3d(*a[0], *a[1], *a[2], *b[2]) == side;
 }
 
 bool disjointMeet(const Corners& a, const Corners& b)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Do two triangles of a mesh meet where they should not? Decided by exact predicates alone, so that it holds for
- * the coordinates as stored, to the last bit (see ExactPredicates.h for their range).
+ * Do two triangles of a mesh meet where they should not? Decided by exact predicates alone, so that it holds
+ * for the coordinates as stored, to the last bit (see ExactPredicates.h for their range).
  */
 #pragma once
 

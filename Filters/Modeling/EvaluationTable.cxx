@@ -51,10 +51,10 @@ void storeAgreement(const std::vector<ViewAgreement>& views, vtkTable* table)
   addColumn<vtkTypeUInt64Array>(views, "MeshPixels", &ViewAgreement::meshPixels, table);
   const ViewAgreement total = totalAgreement(views);
   setField(table, "Views", int(views.size()));
-  setField(table, "MeanIoU", { mean(views, &ViewAgreement::iou) });
-  setField(table, "MeanXOR", { mean(views, &ViewAgreement::xorShare) });
-  setField(table, "TotalIoU", { total.iou });
-  setField(table, "TotalXOR", { total.xorShare });
+  setField(table, "MeanIoU", mean(views, &ViewAgreement::iou));
+  setField(table, "MeanXOR", mean(views, &ViewAgreement::xorShare));
+  setField(table, "TotalIoU", total.iou);
+  setField(table, "TotalXOR", total.xorShare);
   setField(table, "FalseObject", total.falseObject);
   setField(table, "FalseBackground", total.falseBackground);
 }
@@ -74,21 +74,21 @@ void storeSoundness(const MeshSoundness& soundness, vtkTable* table)
   {
     setField(table, "Genus", int(*soundness.genus));
   }
-  setField(table, "Volume", { soundness.volume });
-  setField(table, "Area", { soundness.area });
+  setField(table, "Volume", soundness.volume);
+  setField(table, "Area", soundness.area);
   setField(table, "Closed", int(soundness.closed()));
   setField(table, "Sound", int(soundness.sound()));
 }
 
 void storeTruth(const MeshComparison& comparison, vtkTable* table)
 {
-  setField(table, "MeshToTruthMean", { comparison.meshToTruth.mean });
-  setField(table, "TruthToMeshMean", { comparison.truthToMesh.mean });
-  setField(table, "MeshToTruthMaximum", { comparison.meshToTruth.maximum });
-  setField(table, "TruthToMeshMaximum", { comparison.truthToMesh.maximum });
-  setField(table, "TruthMean", { comparison.mean });
-  setField(table, "TruthRMS", { comparison.rms });
-  setField(table, "TruthHausdorff", { comparison.hausdorff });
+  setField(table, "MeshToTruthMean", comparison.meshToTruth.mean);
+  setField(table, "TruthToMeshMean", comparison.truthToMesh.mean);
+  setField(table, "MeshToTruthMaximum", comparison.meshToTruth.maximum);
+  setField(table, "TruthToMeshMaximum", comparison.truthToMesh.maximum);
+  setField(table, "TruthMean", comparison.mean);
+  setField(table, "TruthRMS", comparison.rms);
+  setField(table, "TruthHausdorff", comparison.hausdorff);
 }
 
 double longestSide(const Mesh& mesh)

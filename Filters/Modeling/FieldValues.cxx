@@ -41,6 +41,11 @@ void setField(vtkDataObject* data, const char* name, std::uint64_t value)
   setValues<vtkTypeUInt64Array>(data, name, &value, 1);
 }
 
+void setField(vtkDataObject* data, const char* name, double value)
+{
+  setValues<vtkDoubleArray>(data, name, &value, 1);
+}
+
 void setField(vtkDataObject* data, const char* name, const std::vector<double>& values)
 {
   setValues<vtkDoubleArray>(data, name, values.data(), values.size());

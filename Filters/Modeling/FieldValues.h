@@ -16,6 +16,7 @@ namespace silhouette::modeling
 
 void setField(vtkDataObject* data, const char* name, int value);
 void setField(vtkDataObject* data, const char* name, std::uint64_t value);
+void setField(vtkDataObject* data, const char* name, double value);
 void setField(vtkDataObject* data, const char* name, const std::vector<double>& values);
 
 /** The values of a field array; throws InvalidInput, saying `what` lacks it, where it is not there. */

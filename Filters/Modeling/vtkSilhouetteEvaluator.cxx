@@ -79,7 +79,7 @@ int vtkSilhouetteEvaluator::RequestData(
       const silhouette::Octree octree = octreeOf(grid);
       silhouette::Phase covering(execution, 0.6, 0.7);
       setField(table, "LostSurface", std::uint64_t(silhouette::lostSurvivors(octree, mesh, covering)));
-      setField(table, "LeafEdge", { octree.lattice.leafEdge() });
+      setField(table, "LeafEdge", octree.lattice.leafEdge());
       spacing = spacing == 0.0 ? octree.lattice.leafEdge() : spacing;
     }
     if (truthData)
@@ -88,7 +88,7 @@ int vtkSilhouetteEvaluator::RequestData(
       spacing = spacing == 0.0 ? longestSide(truth) / 512.0 : spacing;
       silhouette::Phase measuring(execution, 0.7, 1.0);
       storeTruth(silhouette::compareMeshes(mesh, truth, spacing, measuring), table);
-      setField(table, "SampleSpacing", { spacing });
+      setField(table, "SampleSpacing", spacing);
     }
     execution.progress(1.0);
   };

@@ -80,7 +80,7 @@ inline BinaryImage emptyImage(int width, int height)
   return {width, height, std::vector<std::uint8_t>(std::size_t(width) * std::size_t(height), 0)};
 }
 
-/** Each pixel is object with the given chance; `smooth` joins neighbours to clumps. */
+/** Each pixel is object with the given chance. */
 inline BinaryImage randomImage(int width, int height, double share, unsigned seed)
 {
   std::mt19937 generator(seed);

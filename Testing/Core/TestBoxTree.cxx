@@ -98,7 +98,8 @@ TEST(BoxTree, Empty)
   const BoxTree tree({});
   EXPECT_EQ(tree.leafCount(), 0u);
   tree.overlapping(Box(Eigen::Vector3d(0, 0, 0)), [](std::int32_t) { FAIL(); });
-  EXPECT_EQ(tree.nearest({ 0, 0, 0 }, [](std::int32_t) { return 0.0; }), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(
+    tree.nearest({ 0, 0, 0 }, [](std::int32_t) { return 0.0; }), std::numeric_limits<double>::infinity());
 }
 
 TEST(BoxTree, AThousandBoxesInOnePlace)

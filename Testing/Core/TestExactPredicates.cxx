@@ -186,6 +186,7 @@ TEST(ExactPredicates, MagnitudesFarApart)
     const Point3 a = scaled(numbers.point<Point3>()), b = scaled(numbers.point<Point3>());
     const Point3 c = scaled(numbers.point<Point3>()), d = scaled(numbers.point<Point3>());
     ASSERT_EQ(orient3d(a, b, c, d), truth3d(a, b, c, d));
-    ASSERT_EQ(orient2d(a.head<2>(), b.head<2>(), c.head<2>()), truth2d(a.head<2>(), b.head<2>(), c.head<2>()));
+    ASSERT_EQ(
+      orient2d(a.head<2>(), b.head<2>(), c.head<2>()), truth2d(a.head<2>(), b.head<2>(), c.head<2>()));
   }
 }

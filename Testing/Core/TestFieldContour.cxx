@@ -22,10 +22,7 @@ constexpr double Pi = 3.14159265358979323846;
 class Balls : public DistanceField
 {
 public:
-  explicit Balls(double steep)
-    : Steep(steep)
-  {
-  }
+  explicit Balls(double steep) : Steep(steep) {}
   double operator()(const Eigen::Vector3d& p) const override
   {
     const double first = (p - Eigen::Vector3d(0.4, 0.3, 0.35)).norm() - 0.3;
@@ -57,12 +54,12 @@ TEST(FieldContour, closedAndOutwardsWithTheVerticesOnTheSurface)
   {
     for (int c = 0; c < 3; ++c)
     {
-      EXPECT_TRUE(halfEdges.insert({ t[c], t[(c + 1) % 3] }).second);
+      EXPECT_TRUE(halfEdges.insert({t[c], t[(c + 1) % 3]}).second);
     }
   }
   for (const auto& edge : halfEdges)
   {
-    EXPECT_EQ(halfEdges.count({ edge.second, edge.first }), 1u);
+    EXPECT_EQ(halfEdges.count({edge.second, edge.first}), 1u);
   }
   EXPECT_EQ(long(mesh.points.size()) - long(halfEdges.size() / 2) + long(mesh.triangles.size()), 4);
   for (const Eigen::Vector3d& p : mesh.points)
@@ -93,7 +90,7 @@ TEST(FieldContour, aSteeperFieldHasTheSameSurface)
 
 TEST(FieldContour, refusesCellsOutOfRange)
 {
-  for (const double edge : { 0.0, -1.0, 0.3, std::numeric_limits<double>::quiet_NaN() })
+  for (const double edge : {0.0, -1.0, 0.3, std::numeric_limits<double>::quiet_NaN()})
   {
     try
     {

@@ -201,7 +201,8 @@ TEST(MeshSoundness, BoxesThatShareAnEdge)
 TEST(MeshSoundness, TouchingAndInterpenetratingSolids)
 {
   EXPECT_GT(assessed(joined(boxMesh(0, 1), boxMesh(1, 2))).selfIntersections, 0u);
-  EXPECT_GT(assessed(joined(tetrahedron({ 0, 0, 0 }, 1), tetrahedron({ 0.1, 0.1, 0.1 }, 1))).selfIntersections, 0u);
+  EXPECT_GT(
+    assessed(joined(tetrahedron({ 0, 0, 0 }, 1), tetrahedron({ 0.1, 0.1, 0.1 }, 1))).selfIntersections, 0u);
 }
 
 TEST(MeshSoundness, DegenerateTriangles)
@@ -235,7 +236,8 @@ TEST(MeshSoundness, WeldingASoup)
 TEST(MeshSoundness, WeldingKeepsTheFirstAppearance)
 {
   Mesh mesh;
-  mesh.points = { { 3, 0, 0 }, { -0.0, 1, 0 }, { 0.0, 1, 0 }, { 1, 1, 1 }, { 3, 0, -0.0 }, { 1, 1, 1.0000001 } };
+  mesh.points = { { 3, 0, 0 }, { -0.0, 1, 0 }, { 0.0, 1, 0 }, { 1, 1, 1 }, { 3, 0, -0.0 },
+    { 1, 1, 1.0000001 } };
   mesh.triangles = { { 0, 1, 3 }, { 4, 2, 5 }, { 1, 2, 3 } };
   const Mesh welded = weldCoincidentPoints(mesh);
   ASSERT_EQ(welded.points.size(), 4u);

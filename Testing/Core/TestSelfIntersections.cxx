@@ -89,7 +89,8 @@ TEST(SelfIntersections, InterpenetratingAndTouchingTetrahedra)
 {
   EXPECT_FALSE(found(joined(tetrahedron({ 0, 0, 0 }, 1), tetrahedron({ 0.2, 0.2, 0.2 }, 1))).empty());
   EXPECT_TRUE(found(joined(tetrahedron({ 0, 0, 0 }, 1), tetrahedron({ 2, 0, 0 }, 1))).empty());
-  EXPECT_TRUE(found(joined(tetrahedron({ 0, 0, 0 }, 4), tetrahedron({ 0.5, 0.5, 0.5 }, 0.5))).empty()) << "nested";
+  EXPECT_TRUE(found(joined(tetrahedron({ 0, 0, 0 }, 4), tetrahedron({ 0.5, 0.5, 0.5 }, 0.5))).empty())
+    << "nested";
   // Corner (1, 0, 0) of the one is the origin of the other, and their edges lie on the x axis: a touch.
   const Mesh touching = joined(tetrahedron({ 0, 0, 0 }, 1), tetrahedron({ 1, 0, 0 }, 1));
   EXPECT_EQ(found(touching), allPairs(touching));

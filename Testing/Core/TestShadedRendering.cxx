@@ -35,11 +35,11 @@ std::vector<std::uint8_t> photograph(const Mesh& mesh)
 Mesh square(double z, double half, bool facing)
 {
   Mesh mesh;
-  mesh.points = { { -half, -half, z }, { half, -half, z }, { half, half, z }, { -half, half, z } };
-  mesh.triangles = { { 0, 2, 1 }, { 0, 3, 2 } };
+  mesh.points = {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
+  mesh.triangles = {{0, 2, 1}, {0, 3, 2}};
   if (!facing)
   {
-    mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   }
   return mesh;
 }
@@ -47,7 +47,7 @@ Mesh square(double z, double half, bool facing)
 std::array<int, 3> pixel(const std::vector<std::uint8_t>& image, int column, int row)
 {
   const std::size_t i = 3 * (std::size_t(row) * Size + column);
-  return { image[i], image[i + 1], image[i + 2] };
+  return {image[i], image[i + 1], image[i + 2]};
 }
 
 TEST(ShadedRendering, keyGivesBackTheMask)
@@ -55,7 +55,7 @@ TEST(ShadedRendering, keyGivesBackTheMask)
   SyntheticShapeOptions coarse;
   coarse.refinement = 0.5;
   for (const SyntheticShape shape :
-    { SyntheticShape::Jug, SyntheticShape::Sphere, SyntheticShape::Torus, SyntheticShape::Twig })
+       {SyntheticShape::Jug, SyntheticShape::Sphere, SyntheticShape::Torus, SyntheticShape::Twig})
   {
     const Mesh mesh = syntheticShape(shape, coarse);
     const BinaryImage mask = renderSilhouette(mesh, camera(), Size, Size);
@@ -79,14 +79,14 @@ TEST(ShadedRendering, nearestSurfaceIsSeen)
   Mesh back = square(0.5, 1.0, true);
   back.points[0].z() += 1.5;
   back.points[1].z() += 1.5;
-  for (const bool backFirst : { false, true })
+  for (const bool backFirst : {false, true})
   {
     Mesh both = backFirst ? back : front;
     const Mesh& other = backFirst ? front : back;
     both.points.insert(both.points.end(), other.points.begin(), other.points.end());
     for (const Triangle& t : other.triangles)
     {
-      both.triangles.push_back({ t[0] + 4, t[1] + 4, t[2] + 4 });
+      both.triangles.push_back({t[0] + 4, t[1] + 4, t[2] + 4});
     }
     const auto image = photograph(both);
     EXPECT_EQ(pixel(image, 100, 100), pixel(photograph(front), 100, 100));

@@ -64,7 +64,8 @@ void compareWithPointInTriangle(bool whole)
   for (int run = 0; run < 200; ++run)
   {
     const Mesh mesh = flatTriangles(random, 1, whole);
-    const std::array<Vector2, 3> t{ mesh.points[0].head<2>(), mesh.points[1].head<2>(), mesh.points[2].head<2>() };
+    const std::array<Vector2, 3> t{ mesh.points[0].head<2>(), mesh.points[1].head<2>(),
+      mesh.points[2].head<2>() };
     if (orient2d(t[0], t[1], t[2]) == 0)
     {
       continue;
@@ -164,7 +165,8 @@ TEST(SilhouetteRendering, CutsAtTheCameraPlane)
 
 TEST(SilhouetteRendering, BehindTheCameraNothingIsSeen)
 {
-  EXPECT_EQ(objectPixels(renderSilhouette(boxMesh({ -1, -1, -5 }, { 1, 1, -3 }), pinhole(50, 50), 101, 101)), 0u);
+  EXPECT_EQ(
+    objectPixels(renderSilhouette(boxMesh({ -1, -1, -5 }, { 1, 1, -3 }), pinhole(50, 50), 101, 101)), 0u);
   EXPECT_EQ(objectPixels(renderSilhouette(Mesh(), pinhole(50, 50), 101, 101)), 0u);
 }
 

@@ -25,10 +25,7 @@ constexpr double Pi = 3.14159265358979323846;
 class Threads : public Execution
 {
 public:
-  explicit Threads(int count)
-    : Count(count)
-  {
-  }
+  explicit Threads(int count) : Count(count) {}
   void forRanges(std::size_t count, std::size_t, const Range& work) override
   {
     std::vector<std::thread> threads;
@@ -132,7 +129,7 @@ TEST(SyntheticCapture, camerasSeeAnyMeshWhole)
   {
     p = 1e-3 * p + Eigen::Vector3d(40.0, -7.0, 300.0);
   }
-  for (const int views : { 1, 2, 3, 7, 36 })
+  for (const int views : {1, 2, 3, 7, 36})
   {
     const std::vector<Projection> cameras = syntheticCameras(mesh, views, 300, 200);
     ASSERT_EQ(int(cameras.size()), views);
@@ -143,7 +140,7 @@ TEST(SyntheticCapture, camerasSeeAnyMeshWhole)
       EXPECT_NEAR(camera.row(2).head<3>().norm(), 1.0, 1e-9);
       EXPECT_LT(camera(1, 2), 0.0); // z is up, v is down
       const Eigen::Vector3d c = -camera.leftCols<3>().inverse() * camera.col(3);
-      centres.insert({ std::lround(c.x() * 1e6), std::lround(c.y() * 1e6), std::lround(c.z() * 1e6) });
+      centres.insert({std::lround(c.x() * 1e6), std::lround(c.y() * 1e6), std::lround(c.z() * 1e6)});
       for (const Eigen::Vector3d& p : mesh.points)
       {
         const Eigen::Vector3d h = camera * p.homogeneous();
@@ -163,7 +160,7 @@ TEST(SyntheticCapture, ringsAreAsDocumented)
   {
     const Eigen::Vector3d c = -camera.leftCols<3>().inverse() * camera.col(3);
     const double elevation = std::asin(c.normalized().z()) * 180.0 / Pi;
-    const double rings[3] = { 15.0, 45.0, -20.0 };
+    const double rings[3] = {15.0, 45.0, -20.0};
     for (int r = 0; r < 3; ++r)
     {
       count[r] += std::abs(elevation - rings[r]) < 1e-4 ? 1 : 0;
@@ -198,7 +195,7 @@ TEST(SyntheticCapture, sameSeedSameBytesForAnyNumberOfThreads)
   const Mesh mesh = coarseShape(SyntheticShape::Torus);
   const SyntheticCapture one = capture(mesh, noisy(7));
   expectSame(one, capture(mesh, noisy(7)));
-  for (const int count : { 2, 5 })
+  for (const int count : {2, 5})
   {
     Threads threads(count);
     expectSame(one, synthesizeCapture(mesh, noisy(7), threads));
@@ -242,7 +239,9 @@ TEST(SyntheticCapture, kindsOfNoiseAreIndependent)
 
 TEST(SyntheticCapture, camerasAreOffByTheStatedDeviations)
 {
-  const Mesh mesh = coarseShape(SyntheticShape::Sphere);
+  Mesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
   SyntheticCaptureOptions options = small(400);
   options.width = options.height = 16;
   options.noiseCamera = 2.0;
@@ -261,7 +260,8 @@ TEST(SyntheticCapture, camerasAreOffByTheStatedDeviations)
   double turns = 0.0;
   for (const SyntheticView& view : capture(mesh, options).views)
   {
-    const Eigen::Matrix3d change = view.projection.leftCols<3>().inverse() * view.trueProjection.leftCols<3>();
+    const Eigen::Matrix3d change =
+        view.projection.leftCols<3>().inverse() * view.trueProjection.leftCols<3>();
     EXPECT_NEAR((change * change.transpose() - Eigen::Matrix3d::Identity()).norm(), 0.0, 1e-9);
     const double degrees = Eigen::AngleAxisd(change).angle() * 180.0 / Pi;
     turns += degrees * degrees;
@@ -307,7 +307,8 @@ TEST(SyntheticCapture, refusesOptionsOutOfRange)
   const Mesh mesh = coarseShape(SyntheticShape::Sphere);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   using Options = SyntheticCaptureOptions;
-  const auto refused = [&](const std::function<void(Options&)>& change, const std::string& text) {
+  const auto refused = [&](const std::function<void(Options&)>& change, const std::string& text)
+  {
     Options options = small(3);
     change(options);
     expectRefused(mesh, options, text);
@@ -329,11 +330,11 @@ TEST(SyntheticCapture, refusesMeshesWithoutExtent)
   expectRefused(Mesh(), small(3), "no triangles");
   Mesh point;
   point.points.assign(3, Eigen::Vector3d(1, 2, 3));
-  point.triangles = { { 0, 1, 2 } };
+  point.triangles = {{0, 1, 2}};
   expectRefused(point, small(3), "radius");
-  point.triangles = { { 0, 1, 3 } };
+  point.triangles = {{0, 1, 3}};
   expectRefused(point, small(3), "3");
-  point.triangles = { { 0, 1, 2 } };
+  point.triangles = {{0, 1, 2}};
   point.points[1].x() = std::numeric_limits<double>::infinity();
   expectRefused(point, small(3), "");
 }

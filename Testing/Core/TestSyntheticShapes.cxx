@@ -35,7 +35,8 @@ Topology topologyOf(const Mesh& mesh)
   std::vector<std::int32_t> parent(mesh.points.size());
   std::iota(parent.begin(), parent.end(), 0);
   std::vector<std::array<std::int32_t, 3>> fans; // point, neighbour, next neighbour
-  const auto root = [&](std::int32_t i) {
+  const auto root = [&](std::int32_t i)
+  {
     while (parent[i] != i)
     {
       i = parent[i] = parent[parent[i]];
@@ -46,16 +47,16 @@ Topology topologyOf(const Mesh& mesh)
   {
     for (int c = 0; c < 3; ++c)
     {
-      halfEdges.push_back({ t[c], t[(c + 1) % 3] });
+      halfEdges.push_back({t[c], t[(c + 1) % 3]});
       parent[root(t[c])] = root(t[(c + 1) % 3]);
-      fans.push_back({ t[c], t[(c + 1) % 3], t[(c + 2) % 3] });
+      fans.push_back({t[c], t[(c + 1) % 3], t[(c + 2) % 3]});
     }
   }
   std::sort(halfEdges.begin(), halfEdges.end());
   result.closed = std::adjacent_find(halfEdges.begin(), halfEdges.end()) == halfEdges.end();
   for (const auto& h : halfEdges)
   {
-    const std::array<std::int32_t, 2> opposite = { h[1], h[0] };
+    const std::array<std::int32_t, 2> opposite = {h[1], h[0]};
     result.closed = result.closed && std::binary_search(halfEdges.begin(), halfEdges.end(), opposite);
   }
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
@@ -153,7 +154,8 @@ TEST(SyntheticShapes, torus)
   expectSound(mesh, 1);
   EXPECT_NEAR(torusAxis().norm(), 1.0, 1e-12);
   EXPECT_NEAR(volume(mesh), 2.0 * Pi * Pi * torusRingRadius * torusTubeRadius * torusTubeRadius, 3e-4);
-  const auto distance = [](const Eigen::Vector3d& p) {
+  const auto distance = [](const Eigen::Vector3d& p)
+  {
     const double along = p.dot(torusAxis());
     const double outward = (p - along * torusAxis()).norm() - torusRingRadius;
     return std::hypot(outward, along) - torusTubeRadius;
@@ -171,10 +173,10 @@ TEST(SyntheticShapes, jugHasAHandleAndAnOpenMouth)
   const Mesh mesh = syntheticShape(SyntheticShape::Jug);
   expectSound(mesh, 1);
   const Eigen::Vector3d bodyCentre(0.001, 0.002, -0.2);
-  EXPECT_EQ(crossings(mesh, bodyCentre, Eigen::Vector3d::UnitZ()), 2);  // the floor alone
-  EXPECT_EQ(crossings(mesh, bodyCentre, Eigen::Vector3d::UnitY()), 4);  // two walls
-  EXPECT_EQ(crossings(mesh, { 0.0, 0.002, 0.5 }, Eigen::Vector3d::UnitX()), 6); // two walls and the handle
-  EXPECT_EQ(crossings(mesh, { -0.55, 0.0, 0.4 }, Eigen::Vector3d::UnitY()), 0); // through the handle
+  EXPECT_EQ(crossings(mesh, bodyCentre, Eigen::Vector3d::UnitZ()), 2);        // the floor alone
+  EXPECT_EQ(crossings(mesh, bodyCentre, Eigen::Vector3d::UnitY()), 4);        // two walls
+  EXPECT_EQ(crossings(mesh, {0.0, 0.002, 0.5}, Eigen::Vector3d::UnitX()), 6); // two walls and the handle
+  EXPECT_EQ(crossings(mesh, {-0.55, 0.0, 0.4}, Eigen::Vector3d::UnitY()), 0); // through the handle
   Eigen::Vector3d spout = mesh.points[0];
   for (const Eigen::Vector3d& p : mesh.points)
   {
@@ -203,7 +205,7 @@ TEST(SyntheticShapes, refinementMultipliesTheFaces)
   SyntheticShapeOptions coarse;
   coarse.refinement = 0.5;
   for (const SyntheticShape shape :
-    { SyntheticShape::Jug, SyntheticShape::Sphere, SyntheticShape::Torus, SyntheticShape::Twig })
+       {SyntheticShape::Jug, SyntheticShape::Sphere, SyntheticShape::Torus, SyntheticShape::Twig})
   {
     const Mesh mesh = syntheticShape(shape, coarse);
     const Topology topology = topologyOf(mesh);
@@ -212,13 +214,13 @@ TEST(SyntheticShapes, refinementMultipliesTheFaces)
     EXPECT_EQ(topology.euler, hasHole ? 0 : 2) << int(shape);
   }
   const double ratio = double(syntheticShape(SyntheticShape::Sphere).triangles.size()) /
-    double(syntheticShape(SyntheticShape::Sphere, coarse).triangles.size());
+                       double(syntheticShape(SyntheticShape::Sphere, coarse).triangles.size());
   EXPECT_EQ(ratio, 4.0);
 }
 
 TEST(SyntheticShapes, refusesWhatItDoesNotKnow)
 {
-  for (const double refinement : { 0.4, 5.0, std::numeric_limits<double>::quiet_NaN() })
+  for (const double refinement : {0.4, 5.0, std::numeric_limits<double>::quiet_NaN()})
   {
     SyntheticShapeOptions options;
     options.refinement = refinement;

@@ -78,7 +78,9 @@ Polygon common(const std::vector<Point>& points, const Triangle& a, const Triang
   return polygon;
 }
 
-/** True where a common corner is none of the shared points, nor, for two of them, on the line through them. */
+/**
+ * True where a common corner is none of the shared points, nor, for two of them, on the line through them.
+ */
 bool truth(const std::vector<Point>& points, const Triangle& a, const Triangle& b)
 {
   std::vector<Exact> shared;
@@ -178,7 +180,8 @@ TEST(TriangleIntersection, ATouchCounts)
 
 TEST(TriangleIntersection, CoincidentPointsOfDifferentIndexTouch)
 {
-  const std::vector<Point> points{ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 0 }, { -1, 0, 1 }, { 0, -1, 1 } };
+  const std::vector<Point> points{ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 0 }, { -1, 0, 1 },
+    { 0, -1, 1 } };
   EXPECT_TRUE(trianglesIntersect(points, { 0, 1, 2 }, { 3, 4, 5 }));
 }
 

@@ -6,13 +6,7 @@ import warnings
 
 import numpy as np
 
-try:
-    from vtksilhouette.numpy_front import octree, reconstruct
-except ModuleNotFoundError as error:
-    if "vtkSilhouetteFiltersModeling" not in str(error):
-        raise
-    print("skipped: this build has no filters")
-    raise SystemExit(77)
+from vtksilhouette.numpy_front import octree, reconstruct
 
 RADIUS = 0.7
 CENTRE = np.array([0.3, -0.2, 0.5])

@@ -16,12 +16,7 @@ vtksilhouette.offscreen     rendering without a display: python3 -m vtksilhouett
 # VTK's classes that ours derive from must be known to Python first.
 import vtkmodules.vtkCommonExecutionModel  # noqa: F401
 
-try:
-    from .vtkSilhouetteFiltersModeling import *  # noqa: F401,F403
-except ModuleNotFoundError as error:
-    # A build of the off-screen window alone is still of use; any other missing module is a real error.
-    if error.name != __name__ + ".vtkSilhouetteFiltersModeling":
-        raise
+from .vtkSilhouetteFiltersModeling import *  # noqa: F401,F403
 
 __all__ = ["numpy_front", "offscreen"]
 __all__ += sorted(name for name in globals() if name.startswith("vtk") and isinstance(globals()[name], type))
