@@ -4,7 +4,7 @@
  * the longest side of the centres' box; items of equal centre are split by index, so that the tree depends on
  * the boxes alone.
  *
- * Cost: n log n to build (about 0.3 s for a million boxes), 120 bytes a box; a query log n and its answers.
+ * Cost: n log n to build (about 0.5 s for a million boxes), 120 bytes a box; a query log n and its answers.
  */
 #pragma once
 

@@ -47,10 +47,10 @@ std::vector<Eigen::Vector4d> halfSpaces(const Mesh& hull, const Lattice& lattice
   return planes;
 }
 
-/** Does the open hull hold an outside corner? Row by row, skipping whole inside octants. */
-bool holdsOutside(const Mesh& hull, const LatticeLabels& labels)
+/** Does the hull hold an outside corner deeper than `tolerance`? Row by row, skipping whole inside octants. */
+bool holdsOutside(const Mesh& hull, const LatticeLabels& labels, double tolerance)
 {
-  constexpr double Rounding = 1e-9;
+  const double depth = std::max(tolerance, 1e-9); // a corner in a facet is not in the hull
   const Octree& octree = labels.octree();
   const auto planes = halfSpaces(hull, octree.lattice);
   Eigen::AlignedBox3d box;
@@ -65,7 +65,7 @@ bool holdsOutside(const Mesh& hull, const LatticeLabels& labels)
       double from = box.min().x(), to = box.max().x();
       for (const auto& plane : planes)
       {
-        const double rest = plane[3] - Rounding - plane[1] * j - plane[2] * k;
+        const double rest = plane[3] - depth - plane[1] * j - plane[2] * k;
         if (std::abs(plane[0]) < 1e-12)
         {
           to = rest < 0.0 ? -std::numeric_limits<double>::infinity() : to;
@@ -170,9 +170,10 @@ void finishSeed(const Mesh& surface, Part& part)
 class Merger
 {
 public:
-  Merger(std::vector<Part>& parts, const LatticeLabels& labels)
+  Merger(std::vector<Part>& parts, const LatticeLabels& labels, double tolerance)
     : Parts(parts)
     , Labels(labels)
+    , Tolerance(tolerance)
   {
   }
 
@@ -218,7 +219,7 @@ private:
     std::vector<Eigen::Vector3d> corners = this->Parts[a].corners;
     corners.insert(corners.end(), this->Parts[b].corners.begin(), this->Parts[b].corners.end());
     auto hull = convexHull(corners);
-    if (hull && holdsOutside(*hull, this->Labels))
+    if (hull && holdsOutside(*hull, this->Labels, this->Tolerance))
     {
       return;
     }
@@ -251,6 +252,7 @@ private:
 
   std::vector<Part>& Parts;
   const LatticeLabels& Labels;
+  double Tolerance;
   std::priority_queue<Pair, std::vector<Pair>, std::greater<Pair>> Queue;
 };
 
@@ -263,6 +265,10 @@ std::vector<LocalHull> localHulls(
   {
     throw InvalidInput("seed block " + std::to_string(options.seedBlock) + " octants: at least 1 is needed");
   }
+  if (!(options.tolerance >= 0.0))
+  {
+    throw InvalidInput("hull tolerance " + std::to_string(options.tolerance) + " octants: at least 0 is needed");
+  }
   std::vector<Part> parts = makeSeeds(surface, labels.octree().lattice, options.seedBlock);
   execution.forRanges(parts.size(), 16,
     [&](std::size_t first, std::size_t last)
@@ -274,7 +280,7 @@ std::vector<LocalHull> localHulls(
     });
   execution.checkpoint(0.2);
   Phase merging(execution, 0.2, 1.0);
-  Merger(parts, labels).run(merging);
+  Merger(parts, labels, options.tolerance).run(merging);
 
   std::vector<LocalHull> hulls;
   for (auto& part : parts)

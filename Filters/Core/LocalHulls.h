@@ -3,7 +3,7 @@
  * Local hulls: the 3D convex hulls of the local convexities of a surface (Documentation/method.md, section 4).
  *
  * Seeds are the connected patches of the surface within blocks of octants; neighbouring parts are merged, the pair
- * with the smallest joint box first, as long as the hull of both holds no outside corner of the lattice. A pair that fails
+ * with the smallest joint box first, as long as the hull of both holds no outside corner of the lattice deeper than a tolerance. A pair that fails
  * is not tried again: a larger hull holds what a smaller one did.
  */
 #pragma once
@@ -26,6 +26,8 @@ struct LocalHull
 
 struct LocalHullsOptions
 {
+  /** Octants, 0 or more: how deep an outside corner may lie in a hull; larger merges more, and bridges more of a concavity. */
+  double tolerance = 0.5;
   int seedBlock = 4; ///< octants a side of the blocks that seeds lie in, at least 1; larger is fewer, coarser seeds
 };
 

@@ -56,8 +56,9 @@ std::vector<std::int32_t> checkedSubset(const Mesh& mesh, std::vector<std::int32
   subset.erase(std::unique(subset.begin(), subset.end()), subset.end());
   if (!subset.empty() && (subset.front() < 0 || std::size_t(subset.back()) >= mesh.triangles.size()))
   {
-    throw InvalidInput("a triangle index of the subset is outside 0 to " +
-      std::to_string(mesh.triangles.size()) + " - 1: " + std::to_string(subset.front() < 0 ? subset.front() : subset.back()));
+    const std::int32_t wrong = subset.front() < 0 ? subset.front() : subset.back();
+    throw InvalidInput("triangle " + std::to_string(wrong) + " of the subset is none of the mesh's " +
+      std::to_string(mesh.triangles.size()) + " triangles");
   }
   return subset;
 }

@@ -97,6 +97,30 @@ void subdivide(const std::vector<Cone>& cones, const Box& box, int backgroundVot
   }
 }
 
+constexpr int SearchLevels = 5;
+
+/** Search the box again and again, until it settles; what a coarse search kept too much of may turn out to be empty. */
+std::optional<Box> tightened(const std::vector<Cone>& cones, Box box, int backgroundVotes)
+{
+  constexpr int Rounds = 32;
+  for (int round = 0; round < Rounds; ++round)
+  {
+    Box found;
+    subdivide(cones, box, backgroundVotes, SearchLevels, found);
+    if (found.isEmpty())
+    {
+      return std::nullopt;
+    }
+    const bool settled = found.volume() > 0.9 * box.volume();
+    box = found;
+    if (settled)
+    {
+      break;
+    }
+  }
+  return box;
+}
+
 /** How large the object looks at point X, in world units: the median over the views. */
 double apparentSize(const PreparedViews& views, const Vector3& X)
 {
@@ -145,26 +169,26 @@ std::optional<Box> intersectViewingCones(const PreparedViews& views, int backgro
   }
   const Vector3 centre = nearestPointToRays(projections, pixels);
   double half = apparentSize(views, centre);
-  bool touched = false;
-  for (int doubling = 0; doubling <= 12; ++doubling, half *= 2.0)
+  constexpr int Doublings = 12;
+  for (int doubling = 0; doubling <= Doublings; ++doubling, half *= 2.0)
   {
     const Box search(centre - Vector3::Constant(half), centre + Vector3::Constant(half));
     Box found;
-    subdivide(cones, search, backgroundVotes, 5, found);
-    touched = !found.isEmpty() &&
-      !((found.min().array() > search.min().array()).all() && (found.max().array() < search.max().array()).all());
-    if (!found.isEmpty() && !touched)
+    subdivide(cones, search, backgroundVotes, SearchLevels, found);
+    if (!found.isEmpty() && (found.min().array() > search.min().array()).all() &&
+      (found.max().array() < search.max().array()).all())
     {
-      return found;
+      return tightened(cones, found, backgroundVotes);
+    }
+    // Nothing near where the rays meet: a larger search finds it if it is anywhere.
+    if (found.isEmpty() && doubling >= 4)
+    {
+      return std::nullopt;
     }
   }
-  if (touched)
-  {
-    throw UnboundedObject("automatic bounds: the viewing cones of the " + std::to_string(views.size()) +
-      (views.size() == 1 ? " view do" : " views do") +
-      " not close around the object; give the bounds, or more views from other directions");
-  }
-  return std::nullopt;
+  throw UnboundedObject("automatic bounds: the viewing cones of the " + std::to_string(views.size()) +
+    (views.size() == 1 ? " view do" : " views do") +
+    " not close around the object; give the bounds, or more views from other directions");
 }
 
 Vector3 nearestPointToRays(const std::vector<Projection>& projections, const std::vector<Vector2>& pixels)

@@ -30,12 +30,12 @@ std::string sizeText(const std::array<int, 2>& size)
 
 bool takesMask(const CaptureEntry& entry, std::size_t index, CaptureImageChoice choice)
 {
-  const bool mask =
-    choice == CaptureImageChoice::Masks || (choice == CaptureImageChoice::MasksWherePresent && !entry.mask.empty());
+  const bool mask = choice == CaptureImageChoice::Masks ||
+                    (choice == CaptureImageChoice::MasksWherePresent && !entry.mask.empty());
   if (mask ? entry.mask.empty() : entry.photograph.empty())
   {
-    throw InvalidInput(
-      describeView(index, entry.name) + ": there is no " + (mask ? "mask" : "photograph") + " of this view");
+    throw InvalidInput(describeView(index, entry.name) + ": there is no " + (mask ? "mask" : "photograph") +
+                       " of this view");
   }
   return mask;
 }
@@ -51,7 +51,7 @@ void checkSameSize(const CaptureEntry& entry)
   if (mask != photograph)
   {
     throw InvalidInput("mask " + entry.mask.string() + " has " + sizeText(mask) + " pixels, its photograph " +
-      entry.photograph.string() + " has " + sizeText(photograph));
+                       entry.photograph.string() + " has " + sizeText(photograph));
   }
 }
 
@@ -64,7 +64,7 @@ Vector2 objectPixel(const ImageView& view, std::size_t index)
   }
   catch (const InvalidInput&)
   {
-    return { 0.5 * (image.width - 1), 0.5 * (image.height - 1) }; // a photograph: its object is not known yet
+    return {0.5 * (image.width - 1), 0.5 * (image.height - 1)}; // a photograph: its object is not known yet
   }
 }
 
@@ -86,7 +86,7 @@ Vector2 imageCentre(const ImageView& view)
 {
   int size[3];
   view.image->GetDimensions(size);
-  return { 0.5 * (size[0] - 1), 0.5 * (size[1] - 1) };
+  return {0.5 * (size[0] - 1), 0.5 * (size[1] - 1)};
 }
 
 /** Adds one camera's lines. */
@@ -104,24 +104,24 @@ void addFrustum(const ImageView& view, int index, const Vector3* target, vtkPoly
   const double step = length / direction(middle[0], middle[1]).norm();
   vtkPoints* points = lines->GetPoints();
   const vtkIdType apex = points->InsertNextPoint(centre.data());
-  const double u[2] = { -0.5, 2.0 * middle[0] + 0.5 }, v[2] = { -0.5, 2.0 * middle[1] + 0.5 };
-  const int around[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+  const double u[2] = {-0.5, 2.0 * middle[0] + 0.5}, v[2] = {-0.5, 2.0 * middle[1] + 0.5};
+  const int around[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   for (const auto& corner : around)
   {
     const Vector3 point = centre + step * direction(u[corner[0]], v[corner[1]]);
-    const vtkIdType ray[2] = { apex, points->InsertNextPoint(point.data()) };
+    const vtkIdType ray[2] = {apex, points->InsertNextPoint(point.data())};
     lines->GetLines()->InsertNextCell(2, ray);
     ids->InsertNextValue(index);
   }
-  const vtkIdType border[5] = { apex + 1, apex + 2, apex + 3, apex + 4, apex + 1 };
+  const vtkIdType border[5] = {apex + 1, apex + 2, apex + 3, apex + 4, apex + 1};
   lines->GetLines()->InsertNextCell(5, border);
   ids->InsertNextValue(index);
 }
 
 } // namespace
 
-std::vector<ImageView> readCapture(
-  const CaptureDescription& capture, CaptureImageChoice choice, Execution& execution)
+std::vector<ImageView> readCapture(const CaptureDescription& capture, CaptureImageChoice choice,
+                                   std::vector<std::string>& warnings, Execution& execution)
 {
   std::vector<ImageView> views;
   std::vector<Vector2> pixels;
@@ -130,7 +130,7 @@ std::vector<ImageView> readCapture(
     const CaptureEntry& entry = capture.entries[i];
     const bool mask = takesMask(entry, i, choice);
     checkSameSize(entry);
-    ImageView view{ readImage(mask ? entry.mask : entry.photograph), entry.name, entry.projection };
+    ImageView view{readImage(mask ? entry.mask : entry.photograph, warnings), entry.name, entry.projection};
     setField(view.image, IsMaskName, int(mask));
     views.push_back(std::move(view));
     if (capture.freeSign)
@@ -154,7 +154,7 @@ bool isMask(const ImageView& view)
 ColourImage colourImage(const ImageView& view, std::size_t index)
 {
   PixelRows rows = pixelRows(view, index);
-  return { rows.width, rows.height, rows.channels, std::move(rows.values) };
+  return {rows.width, rows.height, rows.channels, std::move(rows.values)};
 }
 
 void storeFrustums(const std::vector<ImageView>& views, vtkPolyData* lines)

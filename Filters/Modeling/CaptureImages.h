@@ -24,13 +24,13 @@ enum class CaptureImageChoice : int
 };
 
 /**
- * The views of a capture. Matrices whose sign is free are made positive at the object: at the point nearest the
- * rays through the silhouettes' centroids, or through the images' centres where an image is no silhouette. Throws
- * InvalidInput, naming the files: what readImage throws; a mask of another size than its photograph; no file of the
- * wanted kind.
+ * The views of a capture. Matrices whose sign is free are made positive at the object: at the point nearest
+ * the rays through the silhouettes' centroids, or through the images' centres where an image is no
+ * silhouette. Throws InvalidInput, naming the files: what readImage throws; a mask of another size than its
+ * photograph; no file of the wanted kind. What the images' readers warn of is added to `warnings`.
  */
-std::vector<ImageView> readCapture(
-  const CaptureDescription& capture, CaptureImageChoice choice, Execution& execution);
+std::vector<ImageView> readCapture(const CaptureDescription& capture, CaptureImageChoice choice,
+                                   std::vector<std::string>& warnings, Execution& execution);
 
 /** Whether a view's image was found as a mask: an integer in its field data, kept by every filter. */
 bool isMask(const ImageView& view);
@@ -39,8 +39,8 @@ bool isMask(const ImageView& view);
 ColourImage colourImage(const ImageView& view, std::size_t index);
 
 /**
- * The cameras as lines: from the centre to the image's corners and around these, a fifth of the way to the point
- * nearest all optical rays; cell array `View`. A camera at infinity has none.
+ * The cameras as lines: from the centre to the image's corners and around these, a fifth of the way to the
+ * point nearest all optical rays; cell array `View`. A camera at infinity has none.
  */
 void storeFrustums(const std::vector<ImageView>& views, vtkPolyData* lines);
 

@@ -20,8 +20,8 @@ void checkDepth(int depth)
 {
   if (depth < 1 || depth > MaximumDepth)
   {
-    throw InvalidInput(
-      "depth " + std::to_string(depth) + " is out of range: 1 to " + std::to_string(MaximumDepth) + " are possible");
+    throw InvalidInput("depth " + std::to_string(depth) + " is out of range: 1 to " +
+                       std::to_string(MaximumDepth) + " are possible");
   }
 }
 
@@ -35,8 +35,8 @@ RootCube givenCube(const std::array<double, 6>& bounds)
     if (!std::isfinite(lowest[axis]) || !std::isfinite(highest[axis]) || !(lowest[axis] < highest[axis]))
     {
       std::ostringstream text;
-      text << "bounds " << lowest[axis] << " to " << highest[axis] << " on axis " << "xyz"[axis]
-           << " are not a box: two finite numbers, the smaller first, are needed";
+      text << "bounds " << lowest[axis] << " to " << highest[axis] << " on axis "
+           << "xyz"[axis] << " are not a box: two finite numbers, the smaller first, are needed";
       throw InvalidInput(text.str());
     }
   }
@@ -53,7 +53,8 @@ int depthFor(double leafEdge, double edge)
   if (depth > MaximumDepth)
   {
     std::ostringstream text;
-    text << "octants of edge " << leafEdge << " in a cube of edge " << edge << " need a depth above " << MaximumDepth;
+    text << "octants of edge " << leafEdge << " in a cube of edge " << edge << " need a depth above "
+         << MaximumDepth;
     throw InvalidInput(text.str());
   }
   return depth;
@@ -75,9 +76,9 @@ bool cameraInside(const Projection& projection, const RootCube& root)
 /** The sides of its image that a silhouette touches, in words. */
 std::string touchedSides(const PreparedView& view)
 {
-  const std::array<bool, 4> touched = { view.objectBox[0] == 0, view.objectBox[1] == view.width - 1,
-    view.objectBox[2] == 0, view.objectBox[3] == view.height - 1 };
-  const char* const names[4] = { "left", "right", "top", "bottom" };
+  const std::array<bool, 4> touched = {view.objectBox[0] == 0, view.objectBox[1] == view.width - 1,
+                                       view.objectBox[2] == 0, view.objectBox[3] == view.height - 1};
+  const char* const names[4] = {"left", "right", "top", "bottom"};
   std::string text;
   for (int side = 0; side < 4; ++side)
   {
@@ -105,7 +106,8 @@ bool hasInsideBorderCorner(const LatticePoint& cell, const Octree& octree, const
   for (int c = 0; c < 8; ++c)
   {
     const LatticePoint corner = cell + cornerOffset(c);
-    if (octree.lattice.onBorder(corner) && views.insideVotes(corner) >= octree.viewCount - octree.backgroundVotes)
+    if (octree.lattice.onBorder(corner) &&
+        views.insideVotes(corner) >= octree.viewCount - octree.backgroundVotes)
     {
       return true;
     }
@@ -125,11 +127,17 @@ Lattice makeLattice(const PreparedViews& views, const LatticeSettings& settings,
   {
     checkDepth(settings.depth);
   }
+  if (settings.backgroundVotes < 0 || settings.backgroundVotes >= views.size())
+  {
+    throw InvalidInput(std::to_string(settings.backgroundVotes) + " background votes of " +
+                       std::to_string(views.size()) + " views are out of range: 0 to " +
+                       std::to_string(views.size() - 1) + " are possible");
+  }
   const bool findDepth = settings.leafEdge > 0.0;
   if (!settings.automaticBounds)
   {
     const RootCube cube = givenCube(settings.bounds);
-    return { cube, findDepth ? depthFor(settings.leafEdge, cube.edge) : settings.depth };
+    return {cube, findDepth ? depthFor(settings.leafEdge, cube.edge) : settings.depth};
   }
   AutomaticBoundsOptions options;
   options.backgroundVotes = settings.backgroundVotes;
@@ -140,13 +148,14 @@ Lattice makeLattice(const PreparedViews& views, const LatticeSettings& settings,
     options.depth = depthFor(settings.leafEdge, automaticBounds(views, options, first).edge);
     Phase second(execution, 0.5, 1.0);
     const RootCube cube = automaticBounds(views, options, second);
-    return { cube, depthFor(settings.leafEdge, cube.edge) };
+    return {cube, depthFor(settings.leafEdge, cube.edge)};
   }
   options.depth = settings.depth;
-  return { automaticBounds(views, options, execution), settings.depth };
+  return {automaticBounds(views, options, execution), settings.depth};
 }
 
-std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice& lattice, bool automaticBounds)
+std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice& lattice,
+                                      bool automaticBounds)
 {
   std::vector<std::string> warnings;
   std::vector<Projection> projections;
@@ -162,7 +171,8 @@ std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice&
     }
     if (cameraInside(view.projection, lattice.root))
     {
-      warnings.push_back(name + ": the camera is inside the root cube; the view says nothing of what is behind it");
+      warnings.push_back(name +
+                         ": the camera is inside the root cube; the view says nothing of what is behind it");
     }
     projections.push_back(view.projection);
     names.push_back(view.name);
@@ -170,7 +180,7 @@ std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice&
   if (views.size() == 1 && !automaticBounds)
   {
     warnings.push_back("only " + describeView(0, views[0].name) +
-      ": the object is bounded by the given box alone along the line of sight");
+                       ": the object is bounded by the given box alone along the line of sight");
   }
   std::string projective = projectiveWarning(projections, names);
   if (!projective.empty())
@@ -187,8 +197,8 @@ std::string cutByBoxWarning(const Octree& octree, const LatticeViews& views)
   for (std::size_t i = 0; i < last.size(); ++i)
   {
     const LatticePoint cell = fromMorton(last.code[i]);
-    const bool atBorder = cell.i == 0 || cell.j == 0 || cell.k == 0 || cell.i == highest || cell.j == highest ||
-      cell.k == highest;
+    const bool atBorder = cell.i == 0 || cell.j == 0 || cell.k == 0 || cell.i == highest ||
+                          cell.j == highest || cell.k == highest;
     if (last.state[i] != OctantState::Background && atBorder && hasInsideBorderCorner(cell, octree, views))
     {
       const Eigen::Vector3d at = octree.lattice.position(cell);

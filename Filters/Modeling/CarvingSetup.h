@@ -24,11 +24,13 @@ struct LatticeSettings
   int backgroundVotes = 0;
 };
 
-/** The root cube and its depth. Throws InvalidInput for a setting out of range, and what automaticBounds throws. */
+/** The root cube and its depth. Throws InvalidInput for a setting out of range, and what automaticBounds
+ * throws. */
 Lattice makeLattice(const PreparedViews& views, const LatticeSettings& settings, Execution& execution);
 
 /** Warnings that need no octree; each names the view. */
-std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice& lattice, bool automaticBounds);
+std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice& lattice,
+                                      bool automaticBounds);
 
 /** A warning where the object reaches through the root cube's border; empty where it does not. */
 std::string cutByBoxWarning(const Octree& octree, const LatticeViews& views);

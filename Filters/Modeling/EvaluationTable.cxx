@@ -16,7 +16,8 @@ namespace
 
 /** A column of one member of each view's agreement. */
 template <typename Array, typename Member>
-void addColumn(const std::vector<ViewAgreement>& views, const char* name, Member ViewAgreement::*member, vtkTable* table)
+void addColumn(const std::vector<ViewAgreement>& views, const char* name, Member ViewAgreement::*member,
+               vtkTable* table)
 {
   vtkNew<Array> column;
   column->SetName(name);

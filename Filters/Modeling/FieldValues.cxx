@@ -16,7 +16,8 @@ namespace silhouette::modeling
 namespace
 {
 
-template <typename Array, typename Value> void setValues(vtkDataObject* data, const char* name, const Value* values, std::size_t count)
+template <typename Array, typename Value>
+void setValues(vtkDataObject* data, const char* name, const Value* values, std::size_t count)
 {
   vtkNew<Array> array;
   array->SetName(name);
@@ -51,13 +52,14 @@ void setField(vtkDataObject* data, const char* name, const std::vector<double>& 
   setValues<vtkDoubleArray>(data, name, values.data(), values.size());
 }
 
-std::vector<double> getField(vtkDataObject* data, const char* name, std::size_t count, const std::string& what)
+std::vector<double> getField(vtkDataObject* data, const char* name, std::size_t count,
+                             const std::string& what)
 {
   vtkDataArray* array = data->GetFieldData() ? data->GetFieldData()->GetArray(name) : nullptr;
   if (!array || array->GetNumberOfValues() < static_cast<vtkIdType>(count))
   {
     throw InvalidInput(what + " has no field array " + name + " of " + std::to_string(count) +
-      " values; was it made by vtkSilhouetteOctreeSource, and its field data kept?");
+                       " values; was it made by vtkSilhouetteOctreeSource, and its field data kept?");
   }
   std::vector<double> values(static_cast<std::size_t>(array->GetNumberOfValues()));
   for (std::size_t i = 0; i < values.size(); ++i)

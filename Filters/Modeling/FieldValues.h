@@ -20,7 +20,8 @@ void setField(vtkDataObject* data, const char* name, double value);
 void setField(vtkDataObject* data, const char* name, const std::vector<double>& values);
 
 /** The values of a field array; throws InvalidInput, saying `what` lacks it, where it is not there. */
-std::vector<double> getField(vtkDataObject* data, const char* name, std::size_t count, const std::string& what);
+std::vector<double> getField(vtkDataObject* data, const char* name, std::size_t count,
+                             const std::string& what);
 std::uint64_t getUnsignedField(vtkDataObject* data, const char* name, const std::string& what);
 /** An integer; `otherwise` where there is none. */
 int getIntegerField(vtkDataObject* data, const char* name, int otherwise);

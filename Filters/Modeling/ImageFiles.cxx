@@ -2,6 +2,7 @@
 #include "ImageFiles.h"
 
 #include "Error.h"
+#include "ImageFileCheck.h"
 
 #include "vtkBMPReader.h"
 #include "vtkCallbackCommand.h"
@@ -23,48 +24,58 @@ namespace silhouette::modeling
 namespace
 {
 
-/** Takes down the errors of a reader and of its executive, which are thereby not printed. */
-class ErrorListener
+/** Takes down the errors and warnings of a reader and of its executive, which are thereby not printed. */
+class ReaderListener
 {
 public:
-  explicit ErrorListener(vtkAlgorithm* reader)
+  explicit ReaderListener(vtkAlgorithm* reader)
   {
     this->Command->SetClientData(this);
     this->Command->SetCallback(
-      [](vtkObject*, unsigned long, void* self, void* text)
-      {
-        std::string& first = static_cast<ErrorListener*>(self)->Text;
-        if (first.empty())
+        [](vtkObject*, unsigned long event, void* self, void* text)
         {
-          first = text ? static_cast<const char*>(text) : "unknown error";
-        }
-      });
-    reader->AddObserver(vtkCommand::ErrorEvent, this->Command);
-    reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Command);
+          auto* listener = static_cast<ReaderListener*>(self);
+          std::string& first = event == vtkCommand::ErrorEvent ? listener->Error : listener->Warning;
+          if (first.empty())
+          {
+            first = text ? static_cast<const char*>(text) : "unknown reason";
+          }
+        });
+    for (vtkObject* object :
+         {static_cast<vtkObject*>(reader), static_cast<vtkObject*>(reader->GetExecutive())})
+    {
+      object->AddObserver(vtkCommand::ErrorEvent, this->Command);
+      object->AddObserver(vtkCommand::WarningEvent, this->Command);
+    }
   }
 
-  /** The first error's last line, without VTK's preamble; empty where there was none. */
-  std::string message() const
+  bool heardError() const { return !this->Error.empty(); }
+  std::string error() const { return lastLine(this->Error); }
+  std::string warning() const { return lastLine(this->Warning); }
+
+private:
+  /** A message without the preamble that VTK gives it. */
+  static std::string lastLine(const std::string& text)
   {
-    const std::size_t end = this->Text.find_last_not_of(" \n\r");
+    const std::size_t end = text.find_last_not_of(" \n\r");
     if (end == std::string::npos)
     {
       return {};
     }
-    const std::size_t start = this->Text.rfind('\n', end);
-    return this->Text.substr(start == std::string::npos ? 0 : start + 1, end - (start == std::string::npos ? 0 : start + 1) + 1);
+    const std::size_t start = text.rfind('\n', end);
+    const std::size_t first = start == std::string::npos ? 0 : start + 1;
+    return text.substr(first, end - first + 1);
   }
-  bool heard() const { return !this->Text.empty(); }
 
-private:
   vtkNew<vtkCallbackCommand> Command;
-  std::string Text;
+  std::string Error;
+  std::string Warning;
 };
 
 template <typename Reader> vtkSmartPointer<vtkImageReader2> readerIfItFits(const char* file)
 {
   auto reader = vtkSmartPointer<Reader>::New();
-  const ErrorListener quiet(reader);
+  const ReaderListener quiet(reader);
   return reader->CanReadFile(file) ? vtkSmartPointer<vtkImageReader2>(reader) : nullptr;
 }
 
@@ -76,10 +87,16 @@ vtkSmartPointer<vtkImageReader2> makeReader(const std::filesystem::path& file)
     throw InvalidInput("cannot read image " + file.string() + ": no such file");
   }
   const std::string name = file.string();
+  const std::string fault = imageFileFault(file);
+  if (!fault.empty())
+  {
+    throw InvalidInput("cannot read image " + name + ": " + fault);
+  }
   using Candidate = vtkSmartPointer<vtkImageReader2> (*)(const char*);
-  for (const Candidate candidate : { Candidate(readerIfItFits<vtkPNGReader>), Candidate(readerIfItFits<vtkJPEGReader>),
-         Candidate(readerIfItFits<vtkPNMReader>), Candidate(readerIfItFits<vtkBMPReader>),
-         Candidate(readerIfItFits<vtkTIFFReader>) })
+  for (const Candidate candidate :
+       {Candidate(readerIfItFits<vtkPNGReader>), Candidate(readerIfItFits<vtkJPEGReader>),
+        Candidate(readerIfItFits<vtkPNMReader>), Candidate(readerIfItFits<vtkBMPReader>),
+        Candidate(readerIfItFits<vtkTIFFReader>)})
   {
     if (auto reader = candidate(name.c_str()))
     {
@@ -87,7 +104,8 @@ vtkSmartPointer<vtkImageReader2> makeReader(const std::filesystem::path& file)
       return reader;
     }
   }
-  throw InvalidInput("cannot read image " + name + ": not a PNG, JPEG, PNM, BMP or TIFF image, or a broken one");
+  throw InvalidInput("cannot read image " + name +
+                     ": not a PNG, JPEG, PNM, BMP or TIFF image, or a broken one");
 }
 
 void eightBits(vtkUnsignedShortArray* wide, vtkImageData* image)
@@ -104,14 +122,18 @@ void eightBits(vtkUnsignedShortArray* wide, vtkImageData* image)
 
 } // namespace
 
-vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file)
+vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file, std::vector<std::string>& warnings)
 {
   const auto reader = makeReader(file);
-  const ErrorListener listener(reader);
+  const ReaderListener listener(reader);
   reader->Update();
-  if (listener.heard() || reader->GetErrorCode() != 0)
+  if (listener.heardError() || reader->GetErrorCode() != 0)
   {
-    throw InvalidInput("cannot read image " + file.string() + ": " + listener.message());
+    throw InvalidInput("cannot read image " + file.string() + ": " + listener.error());
+  }
+  if (!listener.warning().empty())
+  {
+    warnings.push_back("image " + file.string() + ": " + listener.warning());
   }
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->ShallowCopy(reader->GetOutput());
@@ -129,7 +151,7 @@ vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file)
   else if (!vtkUnsignedCharArray::SafeDownCast(scalars))
   {
     throw InvalidInput("cannot read image " + file.string() + ": its values are of type " +
-      scalars->GetDataTypeAsString() + ", 8 or 16 bits without sign are understood");
+                       scalars->GetDataTypeAsString() + ", 8 or 16 bits without sign are understood");
   }
   return image;
 }
@@ -137,15 +159,15 @@ vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file)
 std::array<int, 2> readImageSize(const std::filesystem::path& file)
 {
   const auto reader = makeReader(file);
-  const ErrorListener listener(reader);
+  const ReaderListener listener(reader);
   reader->UpdateInformation();
-  if (listener.heard())
+  if (listener.heardError())
   {
-    throw InvalidInput("cannot read image " + file.string() + ": " + listener.message());
+    throw InvalidInput("cannot read image " + file.string() + ": " + listener.error());
   }
   int extent[6];
   reader->GetDataExtent(extent);
-  return { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1 };
+  return {extent[1] - extent[0] + 1, extent[3] - extent[2] + 1};
 }
 
 } // namespace silhouette::modeling

@@ -10,6 +10,8 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 class vtkImageData;
 
@@ -17,11 +19,13 @@ namespace silhouette::modeling
 {
 
 /**
- * An image of 8 bits a channel; 16-bit values are divided by 257. Throws InvalidInput, naming the file and what the
- * reader said: no such file, no format that is understood, an error while decoding, other than one 2D image of 8 or
- * 16 bits.
+ * An image of 8 bits a channel; 16-bit values are divided by 257. What the reader warns of, data that is
+ * damaged but was read, is added to `warnings`, naming the file. Throws InvalidInput, naming the file and
+ * what the reader said: no such file, no format that is understood, an error while decoding, other than one
+ * 2D image of 8 or 16 bits.
  */
-vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file);
+vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file,
+                                        std::vector<std::string>& warnings);
 
 /** Width and height, from the file's header alone. Throws as readImage. */
 std::array<int, 2> readImageSize(const std::filesystem::path& file);

@@ -38,8 +38,8 @@ void checkSinglePrecision(const Mesh& mesh, double smallestStep)
   if (smallestStep > 0.0 && spacing > smallestStep)
   {
     std::ostringstream text;
-    text << "single precision is too coarse for this depth: coordinates up to " << largest << " are " << spacing
-         << " apart as floats, the surface needs " << smallestStep
+    text << "single precision is too coarse for this depth: coordinates up to " << largest << " are "
+         << spacing << " apart as floats, the surface needs " << smallestStep
          << "; use double precision, a smaller depth, or an origin nearer to the object";
     throw InvalidInput(text.str());
   }
@@ -85,7 +85,7 @@ void storeNormals(const Mesh& mesh, vtkPolyData* out)
   {
     // Twice the area times the unit normal: large triangles count for more.
     const Eigen::Vector3d normal =
-      (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]);
+        (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]);
     for (const std::int32_t corner : t)
     {
       sums[corner] += normal;
@@ -112,7 +112,6 @@ void storeMesh(const Mesh& mesh, const MeshOutput& options, vtkPolyData* out)
   {
     checkSinglePrecision(mesh, options.smallestStep);
   }
-  out->Initialize();
   storePoints(mesh, single, out);
   storeTriangles(mesh, out);
   if (options.normals)
@@ -165,20 +164,21 @@ Mesh meshOf(vtkPolyData* surface, const char* what)
     cells->GetCurrentCell(size, corners);
     if (size != 3)
     {
-      throw InvalidInput(std::string(what) + ": polygon " + std::to_string(cells->GetCurrentCellId()) + " has " +
-        std::to_string(size) + " corners, not 3; vtkTriangleFilter makes triangles of them");
+      throw InvalidInput(std::string(what) + ": polygon " + std::to_string(cells->GetCurrentCellId()) +
+                         " has " + std::to_string(size) +
+                         " corners, not 3; vtkTriangleFilter makes triangles of them");
     }
     for (int c = 0; c < 3; ++c)
     {
       if (corners[c] < 0 || corners[c] >= surface->GetNumberOfPoints())
       {
         throw InvalidInput(std::string(what) + ": triangle " + std::to_string(cells->GetCurrentCellId()) +
-          " names point " + std::to_string(corners[c]) + ", there are " +
-          std::to_string(surface->GetNumberOfPoints()));
+                           " names point " + std::to_string(corners[c]) + ", there are " +
+                           std::to_string(surface->GetNumberOfPoints()));
       }
     }
-    mesh.triangles.push_back({ static_cast<std::int32_t>(corners[0]), static_cast<std::int32_t>(corners[1]),
-      static_cast<std::int32_t>(corners[2]) });
+    mesh.triangles.push_back({static_cast<std::int32_t>(corners[0]), static_cast<std::int32_t>(corners[1]),
+                              static_cast<std::int32_t>(corners[2])});
   }
   return mesh;
 }

@@ -23,8 +23,8 @@ struct MeshOutput
 };
 
 /**
- * Replace the content of `out` by the mesh. Throws InvalidInput where single precision cannot keep
- * `smallestStep`: the message gives the numbers.
+ * Give `out` the mesh's points and triangles, and normals where asked for; its field data stay. Throws
+ * InvalidInput where single precision cannot keep `smallestStep`: the message gives the numbers.
  */
 void storeMesh(const Mesh& mesh, const MeshOutput& options, vtkPolyData* out);
 

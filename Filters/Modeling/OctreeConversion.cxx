@@ -39,19 +39,19 @@ std::size_t intersectionsBefore(const Generation& generation, std::size_t index)
     return generation.childBlock[index];
   }
   return generation.size() == 0
-    ? 0
-    : generation.childBlock.back() + (generation.state.back() == OctantState::Intersection);
+             ? 0
+             : generation.childBlock.back() + (generation.state.back() == OctantState::Intersection);
 }
 
 /** The levels of the tree whose root is octant `root` of the tree generation. */
 std::vector<TreeLevel> levelsOf(const Octree& octree, std::size_t root)
 {
-  std::vector<TreeLevel> levels = { { root, root + 1 } };
+  std::vector<TreeLevel> levels = {{root, root + 1}};
   for (int g = octree.treeGeneration; g < octree.lattice.depth; ++g)
   {
     const Generation& generation = octree.generations[g];
-    const TreeLevel next = { 8 * intersectionsBefore(generation, levels.back().first),
-      8 * intersectionsBefore(generation, levels.back().last) };
+    const TreeLevel next = {8 * intersectionsBefore(generation, levels.back().first),
+                            8 * intersectionsBefore(generation, levels.back().last)};
     if (next.first == next.last)
     {
       break;
@@ -84,9 +84,7 @@ void setAxes(const Octree& octree, vtkHyperTreeGrid* grid)
 class CellWriter
 {
 public:
-  CellWriter(const Octree& octree, vtkHyperTreeGrid* grid)
-    : Source(octree)
-    , Grid(grid)
+  CellWriter(const Octree& octree, vtkHyperTreeGrid* grid) : Source(octree), Grid(grid)
   {
     vtkIdType count = 0;
     for (const Generation& generation : octree.generations)
@@ -185,7 +183,7 @@ void storeParameters(const Octree& octree, vtkHyperTreeGrid* grid)
     inside += octree.count(OctantState::Inside, g);
   }
   setField(grid, "Depth", octree.lattice.depth);
-  setField(grid, "RootCube", { root.origin[0], root.origin[1], root.origin[2], root.edge });
+  setField(grid, "RootCube", {root.origin[0], root.origin[1], root.origin[2], root.edge});
   setField(grid, "TreeGeneration", octree.treeGeneration);
   setField(grid, "NumberOfViews", octree.viewCount);
   setField(grid, "BackgroundVotes", octree.backgroundVotes);
@@ -196,7 +194,7 @@ void storeParameters(const Octree& octree, vtkHyperTreeGrid* grid)
   setField(grid, "CarvedByView", octree.statistics.carvedByView);
   setField(grid, "InsideOctants", inside);
   setField(grid, "IntersectionOctants",
-    std::uint64_t(octree.count(OctantState::Intersection, octree.lattice.depth)));
+           std::uint64_t(octree.count(OctantState::Intersection, octree.lattice.depth)));
 }
 
 constexpr const char* GridName = "the octree";
@@ -207,7 +205,7 @@ int fieldInRange(vtkHyperTreeGrid* grid, const char* name, int least, int greate
   if (!(value >= least && value <= greatest))
   {
     throw InvalidInput(std::string(GridName) + "'s field array " + name + " holds " + std::to_string(value) +
-      ", " + std::to_string(least) + " to " + std::to_string(greatest) + " is possible");
+                       ", " + std::to_string(least) + " to " + std::to_string(greatest) + " is possible");
   }
   return int(value);
 }
@@ -221,7 +219,7 @@ void readParameters(vtkHyperTreeGrid* grid, Octree& octree)
   octree.outside = OutsidePolicy(fieldInRange(grid, "OutsidePolicy", 0, 2));
   octree.fingerprint = getUnsignedField(grid, "ViewsFingerprint", GridName);
   const std::vector<double> root = getField(grid, "RootCube", 4, GridName);
-  octree.lattice.root = { { root[0], root[1], root[2] }, root[3] };
+  octree.lattice.root = {{root[0], root[1], root[2]}, root[3]};
   octree.statistics.octantsTested = getUnsignedField(grid, "OctantsTested", GridName);
   octree.statistics.viewTests = getUnsignedField(grid, "ViewTests", GridName);
   octree.statistics.carvedByView = getField(grid, "CarvedByView", 0, GridName);
@@ -233,27 +231,28 @@ template <typename Array> Array* cellArray(vtkHyperTreeGrid* grid, const char* n
   if (!array || array->GetNumberOfComponents() != 1 || (count >= 0 && array->GetNumberOfValues() != count))
   {
     throw InvalidInput(std::string(GridName) + " has no cell array " + name +
-      " of the type and length that vtkSilhouetteOctreeSource gives it");
+                       " of the type and length that vtkSilhouetteOctreeSource gives it");
   }
   return array;
 }
 
 /** The cells' numbers, sorted by generation and code. */
-std::vector<vtkIdType> sortedCells(const unsigned char* generation, const vtkTypeUInt64* code, vtkIdType count)
+std::vector<vtkIdType> sortedCells(const unsigned char* generation, const vtkTypeUInt64* code,
+                                   vtkIdType count)
 {
   std::vector<vtkIdType> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), vtkIdType(0));
   std::sort(order.begin(), order.end(),
-    [&](vtkIdType a, vtkIdType b)
-    { return generation[a] != generation[b] ? generation[a] < generation[b] : code[a] < code[b]; });
+            [&](vtkIdType a, vtkIdType b)
+            { return generation[a] != generation[b] ? generation[a] < generation[b] : code[a] < code[b]; });
   return order;
 }
 
 [[noreturn]] void throwIncomplete(int generation, std::uint64_t code)
 {
-  throw InvalidInput(std::string(GridName) + " is incomplete: octants of generation " + std::to_string(generation) +
-    " are missing or doubled at lattice code " + std::to_string(code) +
-    "; a filtered or cut grid is no longer an octree of silhouettes");
+  throw InvalidInput(std::string(GridName) + " is incomplete: octants of generation " +
+                     std::to_string(generation) + " are missing or doubled at lattice code " +
+                     std::to_string(code) + "; a filtered or cut grid is no longer an octree of silhouettes");
 }
 
 /** Give each intersection octant its block of children, and check that all eight are there. */
@@ -311,17 +310,20 @@ Octree octreeOf(vtkHyperTreeGrid* grid)
   readParameters(grid, octree);
   auto* states = cellArray<vtkUnsignedCharArray>(grid, "State", -1);
   const vtkIdType count = states->GetNumberOfValues();
-  const unsigned char* generations = cellArray<vtkUnsignedCharArray>(grid, "Generation", count)->GetPointer(0);
+  const unsigned char* generations =
+      cellArray<vtkUnsignedCharArray>(grid, "Generation", count)->GetPointer(0);
   const vtkTypeUInt64* codes = cellArray<vtkTypeUInt64Array>(grid, "LatticeCode", count)->GetPointer(0);
   octree.generations.resize(std::size_t(octree.lattice.depth) + 1);
   for (const vtkIdType cell : sortedCells(generations, codes, count))
   {
     const int g = generations[cell];
-    if (g < octree.treeGeneration || g > octree.lattice.depth || states->GetValue(cell) > 2 || codes[cell] >> 3 * g)
+    if (g < octree.treeGeneration || g > octree.lattice.depth || states->GetValue(cell) > 2 ||
+        codes[cell] >> 3 * g)
     {
       throw InvalidInput(std::string(GridName) + "'s cell " + std::to_string(cell) + " has generation " +
-        std::to_string(g) + ", state " + std::to_string(states->GetValue(cell)) + " and lattice code " +
-        std::to_string(codes[cell]) + ", which do not fit its depth of " + std::to_string(octree.lattice.depth));
+                         std::to_string(g) + ", state " + std::to_string(states->GetValue(cell)) +
+                         " and lattice code " + std::to_string(codes[cell]) +
+                         ", which do not fit its depth of " + std::to_string(octree.lattice.depth));
     }
     octree.generations[g].code.push_back(codes[cell]);
     octree.generations[g].state.push_back(OctantState(states->GetValue(cell)));

@@ -2,13 +2,13 @@
 /**
  * The core's octree against vtkHyperTreeGrid. Private to the module.
  *
- * A grid of 2^r cells a side, r the generation of the tree roots, holds a tree where one was carved; its cells run
- * tree by tree, breadth first. Cell arrays: State (unsigned char), Generation (unsigned char), LatticeCode
- * (64-bit unsigned, Morton within the generation). Background octants are masked. Field data: what names the
- * lattice, the policies and the views.
+ * A grid of 2^r cells a side, r the generation of the tree roots, holds a tree where one was carved; its
+ * cells run tree by tree, breadth first. Cell arrays: State (unsigned char), Generation (unsigned char),
+ * LatticeCode (64-bit unsigned, Morton within the generation). Background octants are masked. Field data:
+ * what names the lattice, the policies and the views.
  *
- * The way back reads the cell arrays and the field data alone, not the trees, so that the order of the cells does
- * not matter; it throws InvalidInput where cells are missing or do not fit together.
+ * The way back reads the cell arrays and the field data alone, not the trees, so that the order of the cells
+ * does not matter; it throws InvalidInput where cells are missing or do not fit together.
  */
 #pragma once
 

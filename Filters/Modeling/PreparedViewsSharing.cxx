@@ -82,26 +82,21 @@ void forgetPreparedViews(vtkDataObject* data)
   data->GetInformation()->Remove(preparedViewsKey());
 }
 
-SharedViews preparedViews(vtkPartitionedDataSetCollection* collection, const ViewOptions& options, Execution& execution)
+SharedViews preparedViews(vtkPartitionedDataSetCollection* collection, const ViewOptions& options,
+                          Execution& execution)
 {
   if (collection)
   {
-    auto* holder = vtkSilhouettePreparedViews::SafeDownCast(preparedViewsKey()->Get(collection->GetInformation()));
+    auto* holder =
+        vtkSilhouettePreparedViews::SafeDownCast(preparedViewsKey()->Get(collection->GetInformation()));
     if (holder && holder->Views->options().outside == options.outside &&
-      int(collection->GetNumberOfPartitionedDataSets()) == holder->Views->size() &&
-      newestImage(collection) <= holder->ImageTime)
+        int(collection->GetNumberOfPartitionedDataSets()) == holder->Views->size() &&
+        newestImage(collection) <= holder->ImageTime)
     {
       return holder->Views;
     }
   }
   return std::make_shared<const PreparedViews>(silhouetteViews(imageViews(collection)), options, execution);
-}
-
-ViewOptions viewOptionsOf(vtkPartitionedDataSetCollection* collection)
-{
-  ViewOptions options;
-  options.outside = OutsidePolicy(std::clamp(getIntegerField(collection, "OutsidePolicy", int(options.outside)), 0, 2));
-  return options;
 }
 
 } // namespace silhouette::modeling

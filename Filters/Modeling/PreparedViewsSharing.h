@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Prepared views travel with the collection they were made from, under a key of the data object's information, so
- * that the filters of one pipeline decode and sum nothing twice. A copy of the collection loses them, and they
- * are prepared again. Private to the module.
+ * Prepared views travel with the collection they were made from, under a key of the data object's
+ * information, so that the filters of one pipeline decode and sum nothing twice. A copy of the collection
+ * loses them, and they are prepared again. Private to the module.
  */
 #pragma once
 
@@ -25,12 +25,10 @@ void attachPreparedViews(vtkPartitionedDataSetCollection* collection, SharedView
 void forgetPreparedViews(vtkDataObject* data);
 
 /**
- * The collection's views: those that travel with it where no image has changed since and the policy is the same,
- * else prepared now. Throws as silhouetteViews and PreparedViews do.
+ * The collection's views: those that travel with it where no image has changed since and the policy is the
+ * same, else prepared now. Throws as silhouetteViews and PreparedViews do.
  */
-SharedViews preparedViews(vtkPartitionedDataSetCollection* collection, const ViewOptions& options, Execution& execution);
-
-/** The policy that the collection says it was prepared with; the default where it says nothing. */
-ViewOptions viewOptionsOf(vtkPartitionedDataSetCollection* collection);
+SharedViews preparedViews(vtkPartitionedDataSetCollection* collection, const ViewOptions& options,
+                          Execution& execution);
 
 } // namespace silhouette::modeling

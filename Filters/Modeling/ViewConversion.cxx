@@ -33,8 +33,8 @@ Projection projectionOf(vtkImageData* image, const std::string& view)
   }
   if (array->GetNumberOfValues() != 12)
   {
-    throw InvalidInput(view + ": the field array Projection has " + std::to_string(array->GetNumberOfValues()) +
-      " values, 12 are needed");
+    throw InvalidInput(view + ": the field array Projection has " +
+                       std::to_string(array->GetNumberOfValues()) + " values, 12 are needed");
   }
   Projection projection;
   const int components = array->GetNumberOfComponents();
@@ -60,8 +60,8 @@ void checkTwoDimensional(vtkImageData* image, const std::string& view)
   image->GetDimensions(size);
   if (size[0] < 1 || size[1] < 1 || size[2] != 1)
   {
-    throw InvalidInput(view + ": an image of " + std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " +
-      std::to_string(size[2]) + " pixels; a view is one two-dimensional image");
+    throw InvalidInput(view + ": an image of " + std::to_string(size[0]) + " x " + std::to_string(size[1]) +
+                       " x " + std::to_string(size[2]) + " pixels; a view is one two-dimensional image");
   }
 }
 
@@ -86,11 +86,13 @@ std::vector<ImageView> imageViews(vtkPartitionedDataSetCollection* collection)
     const std::string what = describeView(i, view.name);
     const unsigned int partitions = collection->GetNumberOfPartitions(i);
     view.image =
-      partitions == 1 ? vtkImageData::SafeDownCast(collection->GetPartitionAsDataObject(i, 0)) : nullptr;
+        partitions == 1 ? vtkImageData::SafeDownCast(collection->GetPartitionAsDataObject(i, 0)) : nullptr;
     if (!view.image)
     {
-      throw InvalidInput(what + ": one vtkImageData is needed, the collection has " +
-        (partitions == 1 ? std::string("something else") : std::to_string(partitions) + " partitions") + " there");
+      throw InvalidInput(
+          what + ": one vtkImageData is needed, the collection has " +
+          (partitions == 1 ? std::string("something else") : std::to_string(partitions) + " partitions") +
+          " there");
     }
     checkTwoDimensional(view.image, what);
     view.projection = projectionOf(view.image, what);
@@ -134,8 +136,8 @@ PixelRows pixelRows(const ImageView& view, std::size_t index)
   }
   if (!bytes)
   {
-    throw InvalidInput(
-      what + ": the image's scalars are of type " + scalars->GetDataTypeAsString() + ", unsigned char is needed");
+    throw InvalidInput(what + ": the image's scalars are of type " + scalars->GetDataTypeAsString() +
+                       ", unsigned char is needed");
   }
   int size[3];
   view.image->GetDimensions(size);
@@ -147,10 +149,11 @@ PixelRows pixelRows(const ImageView& view, std::size_t index)
   if (bytes->GetNumberOfValues() != static_cast<vtkIdType>(count))
   {
     throw InvalidInput(what + ": " + std::to_string(bytes->GetNumberOfTuples()) + " pixel values for " +
-      std::to_string(size[0]) + " x " + std::to_string(size[1]) + " pixels");
+                       std::to_string(size[0]) + " x " + std::to_string(size[1]) + " pixels");
   }
   pixels.values.resize(count);
-  copyRowsReversed(bytes->GetPointer(0), pixels.values.data(), size[1], std::size_t(size[0]) * pixels.channels);
+  copyRowsReversed(bytes->GetPointer(0), pixels.values.data(), size[1],
+                   std::size_t(size[0]) * pixels.channels);
   return pixels;
 }
 
@@ -159,8 +162,8 @@ vtkSmartPointer<vtkImageData> makeImage(const PixelRows& pixels)
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(pixels.width, pixels.height, 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, pixels.channels);
-  copyRowsReversed(pixels.values.data(), static_cast<unsigned char*>(image->GetScalarPointer()), pixels.height,
-    std::size_t(pixels.width) * pixels.channels);
+  copyRowsReversed(pixels.values.data(), static_cast<unsigned char*>(image->GetScalarPointer()),
+                   pixels.height, std::size_t(pixels.width) * pixels.channels);
   return image;
 }
 
@@ -172,8 +175,9 @@ std::vector<View> silhouetteViews(const std::vector<ImageView>& views)
     PixelRows pixels = pixelRows(views[i], i);
     if (pixels.channels != 1)
     {
-      throw InvalidInput(describeView(i, views[i].name) + ": the image has " + std::to_string(pixels.channels) +
-        " components, a silhouette has 1; vtkSilhouetteExtractor makes silhouettes of photographs");
+      throw InvalidInput(
+          describeView(i, views[i].name) + ": the image has " + std::to_string(pixels.channels) +
+          " components, a silhouette has 1; vtkSilhouetteExtractor makes silhouettes of photographs");
     }
     const bool zeroAndOne = *std::max_element(pixels.values.begin(), pixels.values.end()) == 1;
     const std::uint8_t highestBackground = zeroAndOne ? 0 : 127;
@@ -183,19 +187,19 @@ std::vector<View> silhouetteViews(const std::vector<ImageView>& views)
     }
     silhouettes[i].name = views[i].name;
     silhouettes[i].projection = views[i].projection;
-    silhouettes[i].silhouette = { pixels.width, pixels.height, std::move(pixels.values) };
+    silhouettes[i].silhouette = {pixels.width, pixels.height, std::move(pixels.values)};
   }
   return silhouettes;
 }
 
 ImageView imageOf(const View& view)
 {
-  PixelRows pixels{ view.silhouette.width, view.silhouette.height, 1, view.silhouette.pixels };
+  PixelRows pixels{view.silhouette.width, view.silhouette.height, 1, view.silhouette.pixels};
   for (std::uint8_t& value : pixels.values)
   {
     value = value ? 255 : 0;
   }
-  return { makeImage(pixels), view.name, view.projection };
+  return {makeImage(pixels), view.name, view.projection};
 }
 
 } // namespace silhouette::modeling

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Views as VTK carries them, and as the core does: a vtkPartitionedDataSetCollection of vtkImageData, each with
- * its name in the collection's metadata and its matrix in the field array `Projection`, against
- * silhouette::View. The one place that knows that VTK's images begin with the bottom row. Private to the module.
+ * Views as VTK carries them, and as the core does: a vtkPartitionedDataSetCollection of vtkImageData, each
+ * with its name in the collection's metadata and its matrix in the field array `Projection`, against
+ * silhouette::View. The one place that knows that VTK's images begin with the bottom row. Private to the
+ * module.
  */
 #pragma once
 
@@ -41,7 +42,8 @@ struct PixelRows
 /** "view 3 (mask.png)", or "view 3" where there is no name. */
 std::string describeView(std::size_t index, const std::string& name);
 
-/** The collection's views. Throws InvalidInput naming the view that has no image, or no `Projection` of 12 values. */
+/** The collection's views. Throws InvalidInput naming the view that has no image, or no `Projection` of 12
+ * values. */
 std::vector<ImageView> imageViews(vtkPartitionedDataSetCollection* collection);
 
 /** Replace the content of `collection` by these views; images are shared, their field data are not. */

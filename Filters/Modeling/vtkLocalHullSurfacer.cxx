@@ -33,7 +33,7 @@ struct Inputs
   SharedViews views; ///< null without views
 
   Inputs(vtkPolyData* polyData, vtkHyperTreeGrid* grid, vtkPartitionedDataSetCollection* collection,
-    silhouette::Execution& execution)
+         silhouette::Execution& execution)
   {
     this->surface = meshOf(polyData, "the surface");
     this->octree = octreeOf(grid);
@@ -70,7 +70,7 @@ void storeHulls(const std::vector<silhouette::LocalHull>& found, const MeshOutpu
     all.points.insert(all.points.end(), mesh.points.begin(), mesh.points.end());
     for (const silhouette::Triangle& t : mesh.triangles)
     {
-      all.triangles.push_back({ t[0] + offset, t[1] + offset, t[2] + offset });
+      all.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
       ids->InsertNextValue(static_cast<int>(hull));
     }
   }
@@ -88,9 +88,9 @@ int requestedPort(vtkInformation* request)
 vtkStandardNewMacro(vtkLocalHullSurfacer);
 
 vtkLocalHullSurfacer::vtkLocalHullSurfacer()
-  : FillCavities(silhouette::LocalHullOptions().fillCavities)
-  , CoverOffset(silhouette::LocalHullOptions().coverOffset)
-  , SeedBlock(silhouette::LocalHullOptions().hulls.seedBlock)
+    : FillCavities(silhouette::LocalHullOptions().fillCavities),
+      CoverOffset(silhouette::LocalHullOptions().coverOffset),
+      SeedBlock(silhouette::LocalHullOptions().hulls.seedBlock)
 {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
@@ -98,7 +98,7 @@ vtkLocalHullSurfacer::vtkLocalHullSurfacer()
 
 int vtkLocalHullSurfacer::FillInputPortInformation(int port, vtkInformation* info)
 {
-  const char* const types[] = { "vtkPolyData", "vtkHyperTreeGrid", "vtkPartitionedDataSetCollection" };
+  const char* const types[] = {"vtkPolyData", "vtkHyperTreeGrid", "vtkPartitionedDataSetCollection"};
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
   if (port == 2)
   {
@@ -107,11 +107,11 @@ int vtkLocalHullSurfacer::FillInputPortInformation(int port, vtkInformation* inf
   return 1;
 }
 
-vtkTypeBool vtkLocalHullSurfacer::ProcessRequest(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+vtkTypeBool vtkLocalHullSurfacer::ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+                                                 vtkInformationVector* outputs)
 {
-  // The executive asks beforehand what will not be made. An output that was left out stays out of date, so that
-  // asking for it later executes the filter for that output alone.
+  // The executive asks beforehand what will not be made. An output that was left out stays out of date, so
+  // that asking for it later executes the filter for that output alone.
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_NOT_GENERATED()))
   {
     const int port = requestedPort(request);
@@ -124,8 +124,8 @@ vtkTypeBool vtkLocalHullSurfacer::ProcessRequest(
   return this->Superclass::ProcessRequest(request, inputs, outputs);
 }
 
-int vtkLocalHullSurfacer::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkLocalHullSurfacer::RequestData(vtkInformation* request, vtkInformationVector** inputs,
+                                      vtkInformationVector* outputs)
 {
   vtkHyperTreeGrid* grid = vtkHyperTreeGrid::GetData(inputs[1]);
   const int port = requestedPort(request);
@@ -142,21 +142,22 @@ int vtkLocalHullSurfacer::RequestData(
     options.singlePrecision = this->OutputPointsPrecision == SINGLE_PRECISION;
     options.hulls.seedBlock = this->SeedBlock;
     silhouette::Phase reading(execution, 0.0, 0.1);
-    const Inputs in(vtkPolyData::GetData(inputs[0]), grid, vtkPartitionedDataSetCollection::GetData(inputs[2]), reading);
+    vtkPartitionedDataSetCollection* collection = vtkPartitionedDataSetCollection::GetData(inputs[2]);
+    const Inputs in(vtkPolyData::GetData(inputs[0]), grid, collection, reading);
     MeshOutput output;
     output.pointsPrecision = this->OutputPointsPrecision;
     output.normals = this->GenerateNormals;
     if (port != 1)
     {
       silhouette::Phase surfacing(execution, 0.1, port < 0 ? 0.5 : 1.0);
-      storeSurface(silhouette::localHullSurface(in.surface, in.octree, in.views.get(), options, surfacing), output,
-        vtkPolyData::GetData(outputs, 0));
+      storeSurface(silhouette::localHullSurface(in.surface, in.octree, in.views.get(), options, surfacing),
+                   output, vtkPolyData::GetData(outputs, 0));
     }
     if (port != 0)
     {
       silhouette::Phase classifying(execution, port < 0 ? 0.5 : 0.1, 1.0);
-      storeHulls(silhouette::classifyLocalHulls(in.surface, in.octree, in.views.get(), options, classifying), output,
-        vtkPolyData::GetData(outputs, 1));
+      storeHulls(silhouette::classifyLocalHulls(in.surface, in.octree, in.views.get(), options, classifying),
+                 output, vtkPolyData::GetData(outputs, 1));
     }
     execution.progress(1.0);
   };

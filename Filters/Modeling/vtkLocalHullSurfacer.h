@@ -3,9 +3,9 @@
  * @class   vtkLocalHullSurfacer
  * @brief   a closed, clean surface from an imperfect one and the octree of silhouettes
  *
- * Makes a marching-cubes surface of silhouettes whole. Whatever the silhouettes, the result is closed, oriented
- * outwards, edge- and vertex-manifold and free of self-intersections; it crosses or encloses every octant of the
- * last generation that survived the carving, and has no more components than these have.
+ * Makes a marching-cubes surface of silhouettes whole. Whatever the silhouettes, the result is closed,
+ * oriented outwards, edge- and vertex-manifold and free of self-intersections; it crosses or encloses every
+ * octant of the last generation that survived the carving, and has no more components than these have.
  *
  * | port | data set | array | type, components | meaning |
  * | --- | --- | --- | --- | --- |
@@ -16,25 +16,28 @@
  * | | | field `Survivors`, `CoveredOctants`, `CoveringCorners`, `CavitiesFilled`, `IgnoredPoints`, `MovedToMiddle` | 64-bit unsigned, 1 | octants that survived; those without an inside corner at first; corners labelled inside for their sake; cavities filled; input points that lie on no lattice edge; points moved to the middle of their edge against a self-intersection |
  * | output 1 | vtkPolyData, triangles | cells `HullId` | int, 1 | the local hulls, each a closed convex part |
  *
- * The hulls cost a run of Qhull each and are computed only when asked for: by Update(1), or by a filter that is
- * connected to the second output. Update() alone leaves that output empty, and asking for it later does not
- * compute the surface again.
+ * The input surface's field data pass through: `IntersectionOctants`, `LostNoCorner`, `LostAllCorners`,
+ * `Vertices` and `Faces` are those of the marching-cubes surface.
  *
- * Steps: a globally consistent inside or outside label for each lattice corner; every survivor covered, pieces
- * joined; the marching-cubes table over all mixed cells; crossings from the surface where it has them, else from the
- * views, else where the covering asks.
+ * The hulls cost a run of Qhull each and are computed only when asked for: by Update(1), or by a filter that
+ * is connected to the second output. Update() alone leaves that output empty, and asking for it later does
+ * not compute the surface again.
+ *
+ * Steps: a globally consistent inside or outside label for each lattice corner; every survivor covered,
+ * pieces joined; the marching-cubes table over all mixed cells; crossings from the surface where it has them,
+ * else from the views, else where the covering asks.
  *
  * Cost: proportional to the octants of the last generation; memory: about 200 bytes for each.
  *
- * Limits: an empty octree gives an empty surface without a message. Errors: octree and views that do not belong
- * together; a surface with cells other than triangles; a parameter out of range; single precision too coarse for
- * the depth.
+ * Limits: an empty octree gives an empty surface without a message. Errors: octree and views that do not
+ * belong together; a surface with cells other than triangles; a parameter out of range; single precision too
+ * coarse for the depth.
  *
  * AbortExecute is honoured: the output is then empty, without an error. VTK does not run an aborted or failed
  * filter again by itself: call Modified() to ask for it.
  *
- * See D. Shin and T. Tjahjadi, "Local hull-based surface construction of volumetric data from silhouettes", IEEE
- * Transactions on Image Processing 17 (8), 2008.
+ * See D. Shin and T. Tjahjadi, "Local hull-based surface construction of volumetric data from silhouettes",
+ * IEEE Transactions on Image Processing 17 (8), 2008.
  *
  * @sa vtkSilhouetteOctreeSource vtkVotingMarchingCubes vtkSilhouetteEvaluator
  */
@@ -53,8 +56,8 @@ public:
 
   ///@{
   /**
-   * Whether to fill cavities, so that each component is one closed shell. Default on; without it a cavity's wall is
-   * one more component.
+   * Whether to fill cavities, so that each component is one closed shell. Default on; without it a cavity's
+   * wall is one more component.
    */
   vtkSetMacro(FillCavities, bool);
   vtkGetMacro(FillCavities, bool);
@@ -63,8 +66,8 @@ public:
 
   ///@{
   /**
-   * How far the surface stands off a corner that covers a lost octant, in leaf octants, 0.01 to 0.99, default 0.03.
-   * Larger makes thin parts thicker. Out of range is an error of Update().
+   * How far the surface stands off a corner that covers a lost octant, in leaf octants, 0.01 to 0.99, default
+   * 0.03. Larger makes thin parts thicker. Out of range is an error of Update().
    */
   vtkSetMacro(CoverOffset, double);
   vtkGetMacro(CoverOffset, double);
@@ -72,8 +75,8 @@ public:
 
   ///@{
   /**
-   * Edge of the blocks that the hulls' seeds lie in, leaf octants, at least 1, default 4. Only for the second output:
-   * larger gives fewer seeds and hulls that keep less detail, sooner.
+   * Edge of the blocks that the hulls' seeds lie in, leaf octants, at least 1, default 4. Only for the second
+   * output: larger gives fewer seeds and hulls that keep less detail, sooner.
    */
   vtkSetMacro(SeedBlock, int);
   vtkGetMacro(SeedBlock, int);
@@ -107,15 +110,16 @@ public:
   void SetViewsData(vtkDataObject* views) { this->SetInputData(2, views); }
   ///@}
 
-  vtkTypeBool ProcessRequest(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+                             vtkInformationVector* outputs) override;
 
 protected:
   vtkLocalHullSurfacer();
   ~vtkLocalHullSurfacer() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
+                  vtkInformationVector* outputs) override;
 
   bool FillCavities;
   double CoverOffset;

@@ -54,15 +54,15 @@ int vtkSilhouetteCaptureReader::CanReadFile(const char* fileName)
   }
 }
 
-int vtkSilhouetteCaptureReader::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+int vtkSilhouetteCaptureReader::RequestInformation(vtkInformation*, vtkInformationVector**,
+                                                   vtkInformationVector* outputs)
 {
   outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
   return 1;
 }
 
-int vtkSilhouetteCaptureReader::RequestData(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+int vtkSilhouetteCaptureReader::RequestData(vtkInformation*, vtkInformationVector**,
+                                            vtkInformationVector* outputs)
 {
   const auto read = [&](vtkSilhouetteExecution& execution)
   {
@@ -74,13 +74,14 @@ int vtkSilhouetteCaptureReader::RequestData(
     options.views = this->Views ? this->Views : "";
     options.cornerFamily = this->PixelFamily == CORNER;
     const silhouette::CaptureDescription capture = silhouette::describeCapture(this->FileName, options);
-    for (const std::string& warning : capture.warnings)
+    silhouette::Phase reading(execution, 0.0, 0.98);
+    std::vector<std::string> warnings = capture.warnings;
+    const std::vector<ImageView> views =
+        readCapture(capture, static_cast<CaptureImageChoice>(this->ImageChoice), warnings, reading);
+    for (const std::string& warning : warnings)
     {
       vtkWarningMacro(<< warning);
     }
-    silhouette::Phase reading(execution, 0.0, 0.98);
-    const std::vector<ImageView> views =
-      readCapture(capture, static_cast<CaptureImageChoice>(this->ImageChoice), reading);
     storeViews(views, vtkPartitionedDataSetCollection::GetData(outputs, 0));
     storeFrustums(views, vtkPolyData::GetData(outputs, 1));
     execution.progress(1.0);
@@ -91,7 +92,7 @@ int vtkSilhouetteCaptureReader::RequestData(
 void vtkSilhouetteCaptureReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const char* const choices[] = { "MasksWherePresent", "Photographs", "Masks" };
+  const char* const choices[] = {"MasksWherePresent", "Photographs", "Masks"};
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "Views: " << (this->Views ? this->Views : "(all)") << "\n";
   os << indent << "ImageChoice: " << choices[this->ImageChoice] << "\n";

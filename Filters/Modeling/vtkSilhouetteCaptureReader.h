@@ -21,17 +21,18 @@
  * Images are PNG, JPEG, PNM, BMP or TIFF; 16-bit values are brought to 8 bits. Where a
  * `*_good_silhouette_images.txt` exists only its views are read, unless Views says otherwise.
  *
- * Steps: the camera file is read and each view's files are found; images are decoded one after the other (VTK's
- * readers promise nothing about threads); a P list's matrices are negated where the object would lie behind
- * the camera: the object is the point nearest the rays through the silhouettes' centroids, or through the
- * images' centres where they are photographs.
+ * Steps: the camera file is read and each view's files are found; images are decoded one after the other
+ * (VTK's readers promise nothing about threads); a P list's matrices are negated where the object would lie
+ * behind the camera: the object is the point nearest the rays through the silhouettes' centroids, or through
+ * the images' centres where they are photographs.
  *
  * Cost and memory: the images'. All views are given to every piece; the cameras to the first.
  *
  * Limits: no lens distortion; no EXIF rotation; files that change are not noticed: call Modified(). Errors
- * (message naming the file, empty outputs): no or several camera files, a line that is not understood, a missing or
- * unreadable image, a mask of another size than its photograph. AbortExecute is honoured: the outputs are then empty,
- * without an error; VTK does not run an aborted or failed filter again by itself: call Modified() to ask for it.
+ * (message naming the file, empty outputs): no or several camera files, a line that is not understood, a
+ * missing or unreadable image, a mask of another size than its photograph. AbortExecute is honoured: the
+ * outputs are then empty, without an error; VTK does not run an aborted or failed filter again by itself:
+ * call Modified() to ask for it.
  *
  * @sa vtkSilhouetteExtractor vtkSilhouetteOctreeSource
  */
@@ -44,7 +45,7 @@
 class vtkPolyData;
 
 class VTKSILHOUETTEFILTERSMODELING_EXPORT vtkSilhouetteCaptureReader
-  : public vtkPartitionedDataSetCollectionAlgorithm
+    : public vtkPartitionedDataSetCollectionAlgorithm
 {
 public:
   static vtkSilhouetteCaptureReader* New();
@@ -74,8 +75,8 @@ public:
 
   ///@{
   /**
-   * The views to read, by number from 0, range or image name: "0,3,5-9", "a.png,b.png". Null or empty (default):
-   * all, or the good silhouettes where the capture lists them.
+   * The views to read, by number from 0, range or image name: "0,3,5-9", "a.png,b.png". Null or empty
+   * (default): all, or the good silhouettes where the capture lists them.
    */
   vtkSetStringMacro(Views);
   vtkGetStringMacro(Views);
@@ -109,8 +110,10 @@ protected:
   ~vtkSilhouetteCaptureReader() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputs,
+                         vtkInformationVector* outputs) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
+                  vtkInformationVector* outputs) override;
 
   char* FileName = nullptr;
   char* Views = nullptr;

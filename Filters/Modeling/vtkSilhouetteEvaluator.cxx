@@ -42,7 +42,8 @@ vtkSilhouetteEvaluator::vtkSilhouetteEvaluator()
 
 int vtkSilhouetteEvaluator::FillInputPortInformation(int port, vtkInformation* info)
 {
-  const char* const types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPolyData", "vtkHyperTreeGrid" };
+  const char* const types[] = {"vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPolyData",
+                               "vtkHyperTreeGrid"};
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
   if (port >= 2)
   {
@@ -51,8 +52,8 @@ int vtkSilhouetteEvaluator::FillInputPortInformation(int port, vtkInformation* i
   return 1;
 }
 
-int vtkSilhouetteEvaluator::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkSilhouetteEvaluator::RequestData(vtkInformation*, vtkInformationVector** inputs,
+                                        vtkInformationVector* outputs)
 {
   vtkPartitionedDataSetCollection* collection = vtkPartitionedDataSetCollection::GetData(inputs[1]);
   vtkPolyData* truthData = vtkPolyData::GetData(inputs[2]);

@@ -3,8 +3,8 @@
  * @class   vtkSilhouetteEvaluator
  * @brief   judge a surface: is it sound, does it explain the silhouettes, how far is it from the truth
  *
- * Counts what is wrong with a surface as the border of a solid, renders it in each view and compares that with
- * the view's silhouette, and measures its distance to the truth where there is one.
+ * Counts what is wrong with a surface as the border of a solid, renders it in each view and compares that
+ * with the view's silhouette, and measures its distance to the truth where there is one.
  *
  * | port | data set | array | type, components | meaning |
  * | --- | --- | --- | --- | --- |
@@ -16,7 +16,7 @@
  * | | | `IoU`, `XOR` | double | intersection over union; differing pixels as a share of the silhouette's |
  * | | | `FalseObject`, `FalseBackground`, `SilhouettePixels`, `MeshPixels` | 64-bit unsigned | pixels |
  *
- * Field data of the table, one value each:
+ * Field data of the table, one value each, beside those of the surface, which pass through:
  *
  * | names | type | meaning |
  * | --- | --- | --- |
@@ -28,16 +28,16 @@
  * | `MeshToTruthMean`, `TruthToMeshMean`, `MeshToTruthMaximum`, `TruthToMeshMaximum`, `TruthMean`, `TruthRMS`, `TruthHausdorff`, `SampleSpacing` | double | with a truth: distances in the capture's unit; `TruthMean` and `TruthRMS` are over both directions |
  * | `LostSurface`; `LeafEdge` | 64-bit unsigned; double | with an octree: octants of the last generation that survived and that the surface neither crosses nor encloses; their edge |
  *
- * Steps: exact predicates for the self-intersections; a pixel of the rendered surface is object where its centre
- * lies in a projected triangle; distances are from samples by area to the nearest point of a triangle.
+ * Steps: exact predicates for the self-intersections; a pixel of the rendered surface is object where its
+ * centre lies in a projected triangle; distances are from samples by area to the nearest point of a triangle.
  *
- * Cost: self-intersections and distances take most, some seconds a million triangles. Memory: about 200 bytes a
- * triangle.
+ * Cost: self-intersections and distances take most, some seconds a million triangles. Memory: about 200 bytes
+ * a triangle.
  *
- * Limits: points are one by index alone: merge those of formats without shared points first (vtkCleanPolyData).
- * Errors (message, empty output): a surface or a truth without triangles, or with other cells; what a view lacks; an
- * incomplete octree. AbortExecute is honoured: the output is then empty, without an error. VTK does not run an
- * aborted or failed filter again by itself: call Modified() to ask for it.
+ * Limits: points are one by index alone: merge those of formats without shared points first
+ * (vtkCleanPolyData). Errors (message, empty output): a surface or a truth without triangles, or with other
+ * cells; what a view lacks; an incomplete octree. AbortExecute is honoured: the output is then empty, without
+ * an error. VTK does not run an aborted or failed filter again by itself: call Modified() to ask for it.
  *
  * @sa vtkLocalHullSurfacer vtkVotingMarchingCubes vtkSyntheticCaptureSource
  */
@@ -57,8 +57,8 @@ public:
   ///@{
   /**
    * Distance between the samples of the comparison with the truth, in the unit of the capture; above 0, or 0
-   * (default): the octree's leaf edge where there is an octree, else a 512th of the truth's longest side. Larger is
-   * faster and coarser.
+   * (default): the octree's leaf edge where there is an octree, else a 512th of the truth's longest side.
+   * Larger is faster and coarser.
    */
   vtkSetMacro(SampleSpacing, double);
   vtkGetMacro(SampleSpacing, double);
@@ -87,7 +87,8 @@ protected:
   ~vtkSilhouetteEvaluator() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
+                  vtkInformationVector* outputs) override;
 
   double SampleSpacing = 0.0;
 

@@ -14,8 +14,7 @@
 #include <new>
 
 vtkSilhouetteExecution::vtkSilhouetteExecution(vtkAlgorithm* filter)
-  : Filter(filter)
-  , Caller(std::this_thread::get_id())
+    : Filter(filter), Caller(std::this_thread::get_id())
 {
 }
 
@@ -27,7 +26,8 @@ void vtkSilhouetteExecution::forRanges(std::size_t count, std::size_t grain, con
   }
   const auto range = [&work](vtkIdType first, vtkIdType last)
   { work(static_cast<std::size_t>(first), static_cast<std::size_t>(last)); };
-  vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(std::max<std::size_t>(grain, 1)), range);
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(std::max<std::size_t>(grain, 1)),
+                   range);
 }
 
 int vtkSilhouetteExecution::threads() const
@@ -42,7 +42,8 @@ bool vtkSilhouetteExecution::cancelled() const
 
 void vtkSilhouetteExecution::progress(double fraction)
 {
-  // Observers may do anything, drawing included: they are called from the pipeline's own thread or not at all.
+  // Observers may do anything, drawing included: they are called from the pipeline's own thread or not at
+  // all.
   if (std::this_thread::get_id() != this->Caller)
   {
     return;
@@ -79,7 +80,7 @@ int fail(vtkAlgorithm* filter, vtkInformationVector* outputs, int port, const st
 } // namespace
 
 int runFilter(vtkAlgorithm* filter, vtkInformationVector* outputs,
-  const std::function<void(vtkSilhouetteExecution&)>& work, int port)
+              const std::function<void(vtkSilhouetteExecution&)>& work, int port)
 {
   try
   {

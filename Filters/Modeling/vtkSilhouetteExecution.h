@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Runs the core's loops through vtkSMPTools, and hands its progress and its questions whether to stop to a VTK
- * filter. Progress never falls, and only the thread that made the object reports it. Private to the module.
+ * Runs the core's loops through vtkSMPTools, and hands its progress and its questions whether to stop to a
+ * VTK filter. Progress never falls, and only the thread that made the object reports it. Private to the
+ * module.
  */
 #pragma once
 
@@ -35,10 +36,10 @@ namespace silhouette::modeling
 
 /**
  * Run a filter's work and settle how it ended: 1 where it was done, or was cancelled (outputs empty, no error
- * text); 0 after an error, with its text as the filter's error and the outputs empty. `port` restricts what is
- * emptied to one output port; -1 is all of them.
+ * text); 0 after an error, with its text as the filter's error and the outputs empty. `port` restricts what
+ * is emptied to one output port; -1 is all of them.
  */
 int runFilter(vtkAlgorithm* filter, vtkInformationVector* outputs,
-  const std::function<void(vtkSilhouetteExecution&)>& work, int port = -1);
+              const std::function<void(vtkSilhouetteExecution&)>& work, int port = -1);
 
 } // namespace silhouette::modeling

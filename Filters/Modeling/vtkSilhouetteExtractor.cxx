@@ -30,29 +30,31 @@ namespace
 
 /** Extract views [first, last) of `views` side by side; the first view's error, in their order, is thrown. */
 void extractSome(const std::vector<ImageView>& views, std::size_t first, std::size_t last,
-  const silhouette::ExtractionOptions& options, silhouette::Execution& execution, std::vector<silhouette::View>& out)
+                 const silhouette::ExtractionOptions& options, silhouette::Execution& execution,
+                 std::vector<silhouette::View>& out)
 {
   std::vector<std::exception_ptr> errors(last - first);
   execution.forRanges(last - first, 1,
-    [&](std::size_t from, std::size_t to)
-    {
-      for (std::size_t i = from; i < to; ++i)
-      {
-        try // an exception must not leave the thread
-        {
-          const ImageView& view = views[first + i];
-          silhouette::View& result = out[first + i];
-          result.silhouette = silhouette::extractSilhouette(colourImage(view, first + i), options, isMask(view),
-            view.name.empty() ? describeView(first + i, view.name) : view.name);
-          result.name = view.name;
-          result.projection = view.projection;
-        }
-        catch (...)
-        {
-          errors[i] = std::current_exception();
-        }
-      }
-    });
+                      [&](std::size_t from, std::size_t to)
+                      {
+                        for (std::size_t i = from; i < to; ++i)
+                        {
+                          try // an exception must not leave the thread
+                          {
+                            const ImageView& view = views[first + i];
+                            silhouette::View& result = out[first + i];
+                            result.silhouette = silhouette::extractSilhouette(
+                                colourImage(view, first + i), options, isMask(view),
+                                view.name.empty() ? describeView(first + i, view.name) : view.name);
+                            result.name = view.name;
+                            result.projection = view.projection;
+                          }
+                          catch (...)
+                          {
+                            errors[i] = std::current_exception();
+                          }
+                        }
+                      });
   for (const std::exception_ptr& error : errors)
   {
     if (error)
@@ -63,8 +65,8 @@ void extractSome(const std::vector<ImageView>& views, std::size_t first, std::si
 }
 
 /** The silhouettes as images; every other field array of the input stays with its view. */
-std::vector<ImageView> silhouetteImages(
-  const std::vector<ImageView>& views, const std::vector<silhouette::View>& silhouettes)
+std::vector<ImageView> silhouetteImages(const std::vector<ImageView>& views,
+                                        const std::vector<silhouette::View>& silhouettes)
 {
   std::vector<ImageView> images;
   for (std::size_t i = 0; i < views.size(); ++i)
@@ -84,13 +86,10 @@ std::vector<ImageView> silhouetteImages(
 vtkStandardNewMacro(vtkSilhouetteExtractor);
 
 vtkSilhouetteExtractor::vtkSilhouetteExtractor()
-  : KeyExcess(silhouette::ChromaKey().excess)
-  , Tolerance(silhouette::ExtractionOptions().tolerance)
-  , UseAlpha(silhouette::ExtractionOptions().alpha)
-  , InvertPolarity(silhouette::ExtractionOptions().invert)
-  , LargestRegion(silhouette::ExtractionOptions().largestRegion)
-  , FillHoles(silhouette::ExtractionOptions().fillHoles)
-  , Internals(new vtkInternals)
+    : KeyExcess(silhouette::ChromaKey().excess), Tolerance(silhouette::ExtractionOptions().tolerance),
+      UseAlpha(silhouette::ExtractionOptions().alpha), InvertPolarity(silhouette::ExtractionOptions().invert),
+      LargestRegion(silhouette::ExtractionOptions().largestRegion),
+      FillHoles(silhouette::ExtractionOptions().fillHoles), Internals(new vtkInternals)
 {
 }
 
@@ -103,7 +102,7 @@ void vtkSilhouetteExtractor::AddOperation(int operation, int radius)
     vtkErrorMacro("operation " << operation << " is out of range: OPENING (0) to ERODE (3)");
     return;
   }
-  this->Internals->Operations.push_back({ static_cast<silhouette::MorphologyKind>(operation), radius });
+  this->Internals->Operations.push_back({static_cast<silhouette::MorphologyKind>(operation), radius});
   this->Modified();
 }
 
@@ -127,8 +126,8 @@ int vtkSilhouetteExtractor::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
-int vtkSilhouetteExtractor::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkSilhouetteExtractor::RequestData(vtkInformation*, vtkInformationVector** inputs,
+                                        vtkInformationVector* outputs)
 {
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputs[0]);
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputs);
@@ -138,11 +137,11 @@ int vtkSilhouetteExtractor::RequestData(
     silhouette::ExtractionOptions options;
     if (this->KeyChannel != NONE)
     {
-      options.key = { static_cast<silhouette::ColourChannel>(this->KeyChannel), this->KeyExcess };
+      options.key = {static_cast<silhouette::ColourChannel>(this->KeyChannel), this->KeyExcess};
     }
     if (this->UseBackgroundColor)
     {
-      options.background = { this->BackgroundColor[0], this->BackgroundColor[1], this->BackgroundColor[2] };
+      options.background = {this->BackgroundColor[0], this->BackgroundColor[1], this->BackgroundColor[2]};
     }
     options.tolerance = this->Tolerance;
     if (this->UseThreshold)
@@ -173,8 +172,8 @@ int vtkSilhouetteExtractor::RequestData(
 void vtkSilhouetteExtractor::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const char* const channels[] = { "None", "Red", "Green", "Blue" };
-  const char* const operations[] = { "Opening", "Closing", "Dilate", "Erode" };
+  const char* const channels[] = {"None", "Red", "Green", "Blue"};
+  const char* const operations[] = {"Opening", "Closing", "Dilate", "Erode"};
   os << indent << "KeyChannel: " << channels[this->KeyChannel + 1] << "\n";
   os << indent << "KeyExcess: " << this->KeyExcess << "\n";
   os << indent << "UseBackgroundColor: " << (this->UseBackgroundColor ? "On" : "Off") << "\n";
@@ -188,7 +187,8 @@ void vtkSilhouetteExtractor::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Operations: " << this->Internals->Operations.size() << "\n";
   for (const silhouette::MorphologyOperation& operation : this->Internals->Operations)
   {
-    os << indent.GetNextIndent() << operations[static_cast<int>(operation.kind)] << " " << operation.radius << "\n";
+    os << indent.GetNextIndent() << operations[static_cast<int>(operation.kind)] << " " << operation.radius
+       << "\n";
   }
   os << indent << "LargestRegion: " << (this->LargestRegion ? "On" : "Off") << "\n";
   os << indent << "FillHoles: " << this->FillHoles << "\n";

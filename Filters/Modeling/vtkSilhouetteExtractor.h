@@ -14,19 +14,20 @@
  * | output 0 | vtkPartitionedDataSetCollection of vtkImageData | point scalars `Silhouette` | unsigned char, 1 | 255 object, 0 background |
  * | | | field `Projection` | double, 12 | as in the input, as are the names |
  *
- * Steps: a pixel is background where ANY criterion that is set says so; then InvertPolarity; then the morphology,
- * in the order in which it was added; then the largest region; then holes. Without a criterion the images must be
- * silhouettes already: an alpha channel that is not opaque everywhere, a mask, or an image of two values.
+ * Steps: a pixel is background where ANY criterion that is set says so; then InvertPolarity; then the
+ * morphology, in the order in which it was added; then the largest region; then holes. Without a criterion
+ * the images must be silhouettes already: an alpha channel that is not opaque everywhere, a mask, or an image
+ * of two values.
  *
  * Colours, excess, tolerance and threshold are on a scale of 0 to 1, a channel's value / 255.
  *
- * Cost: a few passes over the pixels, more for morphology of a large radius; views are worked on side by side.
- * Memory: a few bytes a pixel. All views are given to every piece.
+ * Cost: a few passes over the pixels, more for morphology of a large radius; views are worked on side by
+ * side. Memory: a few bytes a pixel. All views are given to every piece.
  *
  * Errors (message naming the view, empty output): an image of another type or number of components; neither a
- * criterion nor a silhouette; a key on a grey image; UseAlpha without an alpha channel; a setting out of range.
- * AbortExecute is honoured: the output is then empty, without an error. VTK does not run an aborted or failed
- * filter again by itself: call Modified() to ask for it.
+ * criterion nor a silhouette; a key on a grey image; UseAlpha without an alpha channel; a setting out of
+ * range. AbortExecute is honoured: the output is then empty, without an error. VTK does not run an aborted or
+ * failed filter again by itself: call Modified() to ask for it.
  *
  * @sa vtkSilhouetteCaptureReader vtkSilhouetteOctreeSource
  */
@@ -38,7 +39,8 @@
 
 #include <memory> // for std::unique_ptr
 
-class VTKSILHOUETTEFILTERSMODELING_EXPORT vtkSilhouetteExtractor : public vtkPartitionedDataSetCollectionAlgorithm
+class VTKSILHOUETTEFILTERSMODELING_EXPORT vtkSilhouetteExtractor
+    : public vtkPartitionedDataSetCollectionAlgorithm
 {
 public:
   static vtkSilhouetteExtractor* New();
@@ -75,8 +77,8 @@ public:
 
   ///@{
   /**
-   * Background where the key channel exceeds the larger of the other two by this or more; above 0 to 1, default
-   * 0.08. Larger calls less background.
+   * Background where the key channel exceeds the larger of the other two by this or more; above 0 to 1,
+   * default 0.08. Larger calls less background.
    */
   vtkSetMacro(KeyExcess, double);
   vtkGetMacro(KeyExcess, double);
@@ -112,7 +114,9 @@ public:
   ///@}
 
   ///@{
-  /** Background where the largest channel is at most this; 0 to 1, default 0.5. Larger calls more background. */
+  /**
+   * Background where the largest channel is at most this; 0 to 1, default 0.5. Larger calls more background.
+   */
   vtkSetMacro(Threshold, double);
   vtkGetMacro(Threshold, double);
   ///@}
@@ -133,8 +137,8 @@ public:
 
   ///@{
   /**
-   * The morphology, in the order in which it is carried out; default none. `operation` is OPENING, CLOSING, DILATE or
-   * ERODE, `radius` is in pixels, at least 0. Larger radii remove or close more.
+   * The morphology, in the order in which it is carried out; default none. `operation` is OPENING, CLOSING,
+   * DILATE or ERODE, `radius` is in pixels, at least 0. Larger radii remove or close more.
    */
   void AddOperation(int operation, int radius);
   void ClearOperations();
@@ -149,7 +153,9 @@ public:
   ///@}
 
   ///@{
-  /** Holes of fewer pixels than this become object; at least 0, default 0: none. Larger fills larger holes. */
+  /**
+   * Holes of fewer pixels than this become object; at least 0, default 0: none. Larger fills larger holes.
+   */
   vtkSetMacro(FillHoles, int);
   vtkGetMacro(FillHoles, int);
   ///@}
@@ -159,12 +165,13 @@ protected:
   ~vtkSilhouetteExtractor() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
+                  vtkInformationVector* outputs) override;
 
   int KeyChannel = NONE;
   double KeyExcess;
   bool UseBackgroundColor = false;
-  double BackgroundColor[3] = { 0.0, 0.0, 0.0 };
+  double BackgroundColor[3] = {0.0, 0.0, 0.0};
   double Tolerance;
   bool UseThreshold = false;
   double Threshold = 0.5;

@@ -36,21 +36,20 @@ public:
 
   /** The same, made ready; what travels with the input is taken where it is all there is. */
   SharedViews prepare(vtkPartitionedDataSetCollection* input, const silhouette::ViewOptions& options,
-    silhouette::Execution& execution) const
+                      silhouette::Execution& execution) const
   {
-    return this->Added.empty()
-      ? preparedViews(input, options, execution)
-      : std::make_shared<const silhouette::PreparedViews>(silhouetteViews(this->views(input)), options, execution);
+    return this->Added.empty() ? preparedViews(input, options, execution)
+                               : std::make_shared<const silhouette::PreparedViews>(
+                                     silhouetteViews(this->views(input)), options, execution);
   }
 };
 
 vtkStandardNewMacro(vtkSilhouetteOctreeSource);
 
 vtkSilhouetteOctreeSource::vtkSilhouetteOctreeSource()
-  : Depth(silhouette::AutomaticBoundsOptions().depth)
-  , BackgroundVotes(silhouette::CarveOptions().backgroundVotes)
-  , OutsidePolicy(static_cast<int>(silhouette::ViewOptions().outside))
-  , Internals(new vtkInternals)
+    : Depth(silhouette::AutomaticBoundsOptions().depth),
+      BackgroundVotes(silhouette::CarveOptions().backgroundVotes),
+      OutsidePolicy(static_cast<int>(silhouette::ViewOptions().outside)), Internals(new vtkInternals)
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(2);
@@ -121,12 +120,13 @@ int vtkSilhouetteOctreeSource::FillInputPortInformation(int, vtkInformation* inf
 
 int vtkSilhouetteOctreeSource::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkHyperTreeGrid" : "vtkPartitionedDataSetCollection");
+  info->Set(vtkDataObject::DATA_TYPE_NAME(),
+            port == 0 ? "vtkHyperTreeGrid" : "vtkPartitionedDataSetCollection");
   return 1;
 }
 
-vtkTypeBool vtkSilhouetteOctreeSource::ProcessRequest(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+vtkTypeBool vtkSilhouetteOctreeSource::ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+                                                      vtkInformationVector* outputs)
 {
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
@@ -135,8 +135,8 @@ vtkTypeBool vtkSilhouetteOctreeSource::ProcessRequest(
   return this->Superclass::ProcessRequest(request, inputs, outputs);
 }
 
-int vtkSilhouetteOctreeSource::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkSilhouetteOctreeSource::RequestData(vtkInformation*, vtkInformationVector** inputs,
+                                           vtkInformationVector* outputs)
 {
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputs[0]);
   vtkHyperTreeGrid* grid = vtkHyperTreeGrid::GetData(outputs, 0);
@@ -185,7 +185,7 @@ int vtkSilhouetteOctreeSource::RequestData(
 void vtkSilhouetteOctreeSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const char* const policies[] = { "Border", "Unknown", "Background" };
+  const char* const policies[] = {"Border", "Unknown", "Background"};
   os << indent << "Depth: " << this->Depth << "\n";
   os << indent << "LeafEdge: " << this->LeafEdge << "\n";
   os << indent << "AutomaticBounds: " << (this->AutomaticBounds ? "On" : "Off") << "\n";
@@ -197,7 +197,8 @@ void vtkSilhouetteOctreeSource::PrintSelf(ostream& os, vtkIndent indent)
   for (std::size_t i = 0; i < this->Internals->Added.size(); ++i)
   {
     const ImageView& view = this->Internals->Added[i];
-    os << indent.GetNextIndent() << describeView(i, view.name) << ": " << view.image.GetPointer() << ", Projection:";
+    os << indent.GetNextIndent() << describeView(i, view.name) << ": " << view.image.GetPointer()
+       << ", Projection:";
     for (int n = 0; n < 12; ++n)
     {
       os << " " << view.projection.data()[n];

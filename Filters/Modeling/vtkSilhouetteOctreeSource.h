@@ -3,9 +3,9 @@
  * @class   vtkSilhouetteOctreeSource
  * @brief   carve the octree of an object's silhouettes
  *
- * Grows an octree, generation by generation, from a cube that holds the object: an octant that the silhouettes
- * call background is carved, one that they call object is kept, the others are subdivided to the last generation.
- * The result is VTK's own octree, a vtkHyperTreeGrid.
+ * Grows an octree, generation by generation, from a cube that holds the object: an octant that the
+ * silhouettes call background is carved, one that they call object is kept, the others are subdivided to the
+ * last generation. The result is VTK's own octree, a vtkHyperTreeGrid.
  *
  * | port | data set | array | type, components | meaning |
  * | --- | --- | --- | --- | --- |
@@ -21,33 +21,34 @@
  * | | | field `CarvedByView` | double, one a view | share of the root cube that the view carved |
  * | output 1 | vtkPartitionedDataSetCollection | as the input | | the views used, prepared: filters further down do no work on them twice |
  *
- * A matrix P maps a world point to a pixel, w (u, v, 1) = P (X, Y, Z, 1), with w > 0 in front of the camera, u to
- * the right, v down, the centre of the top-left pixel at (0, 0); the images are in VTK's own order, bottom row
- * first. Matrices are taken as they are, sign included. Views of the input come first, those of AddView() follow;
- * their images may differ in size.
+ * A matrix P maps a world point to a pixel, w (u, v, 1) = P (X, Y, Z, 1), with w > 0 in front of the camera,
+ * u to the right, v down, the centre of the top-left pixel at (0, 0); the images are in VTK's own order,
+ * bottom row first. Matrices are taken as they are, sign included. Views of the input come first, those of
+ * AddView() follow; their images may differ in size.
  *
  * Steps: the views are checked and their pixels summed; the root cube is found, or taken from Bounds; each
- * octant is tested in each view, first by its bounding box, then by its exact polygon; a view that is decided for
- * an octant is not asked again for its descendants.
+ * octant is tested in each view, first by its bounding box, then by its exact polygon; a view that is decided
+ * for an octant is not asked again for its descendants.
  *
- * Cost: proportional to the pairs of octant and view at the silhouettes' borders, about four times as many for
- * each unit of Depth. Memory: about 16 bytes an octant while carving, 10 in the output, and 6 bytes a pixel.
+ * Cost: proportional to the pairs of octant and view at the silhouettes' borders, about four times as many
+ * for each unit of Depth. Memory: about 16 bytes an octant while carving, 10 in the output, and 6 bytes a
+ * pixel.
  *
- * Errors (message, empty outputs): no views; an image that is not a silhouette; a matrix that is missing, has other
- * than 12 values, is not finite or of rank below 3; a parameter out of range; automatic bounds of views that do
- * not bound the object; nothing survives. Warnings, output made: a silhouette that is all object or is cut by its
- * image's border; one view with given bounds; a camera inside the root cube; an object that is cut by it; views
- * that are mirrored or not metric.
+ * Errors (message, empty outputs): no views; an image that is not a silhouette; a matrix that is missing, has
+ * other than 12 values, is not finite or of rank below 3; a parameter out of range; automatic bounds of views
+ * that do not bound the object; nothing survives. Warnings, output made: a silhouette that is all object or
+ * is cut by its image's border; one view with given bounds; a camera inside the root cube; an object that is
+ * cut by it; views that are mirrored or not metric.
  *
- * AbortExecute is honoured: the outputs are then empty, without an error. VTK does not run an aborted or failed
- * filter again by itself: call Modified() to ask for it.
+ * AbortExecute is honoured: the outputs are then empty, without an error. VTK does not run an aborted or
+ * failed filter again by itself: call Modified() to ask for it.
  *
  * Limits: serial over pieces. XML files keep the cell arrays but not the field data, and need
  * SetDataModeToBinary(); an octree read from one cannot go through the surface filters.
  *
- * See D. Shin and T. Tjahjadi, "Local hull-based surface construction of volumetric data from silhouettes", IEEE
- * Transactions on Image Processing 17 (8), 2008, section on the octree; R. Szeliski, "Rapid octree construction
- * from image sequences", CVGIP: Image Understanding 58 (1), 1993.
+ * See D. Shin and T. Tjahjadi, "Local hull-based surface construction of volumetric data from silhouettes",
+ * IEEE Transactions on Image Processing 17 (8), 2008; R. Szeliski, "Rapid octree
+ * construction from image sequences", CVGIP: Image Understanding 58 (1), 1993.
  *
  * @sa vtkSilhouetteCaptureReader vtkSilhouetteExtractor vtkVotingMarchingCubes vtkLocalHullSurfacer
  */
@@ -80,8 +81,8 @@ public:
 
   ///@{
   /**
-   * Views one by one: a silhouette, its matrix row by row, and a name for messages (view numbers serve where it is
-   * null). The image is kept by reference and may change; call its Modified() then.
+   * Views one by one: a silhouette, its matrix row by row, and a name for messages (view numbers serve where
+   * it is null). The image is kept by reference and may change; call its Modified() then.
    */
   void AddView(vtkImageData* silhouette, const double p[12], const char* name = nullptr);
   void RemoveAllViews();
@@ -90,8 +91,8 @@ public:
 
   ///@{
   /**
-   * Subdivisions of the root cube, 1 to 16, default 8. Each unit more halves the octants' edge, and takes about
-   * four times the time and memory. Out of range is an error of Update().
+   * Subdivisions of the root cube, 1 to 16, default 8. Each unit more halves the octants' edge, and takes
+   * about four times the time and memory. Out of range is an error of Update().
    */
   vtkSetMacro(Depth, int);
   vtkGetMacro(Depth, int);
@@ -108,8 +109,8 @@ public:
 
   ///@{
   /**
-   * Whether the root cube is found from silhouettes and matrices (default), or is the smallest cube around Bounds
-   * with the same centre.
+   * Whether the root cube is found from silhouettes and matrices (default), or is the smallest cube around
+   * Bounds with the same centre.
    */
   vtkSetMacro(AutomaticBounds, bool);
   vtkGetMacro(AutomaticBounds, bool);
@@ -118,9 +119,9 @@ public:
 
   ///@{
   /**
-   * A box that holds the object, xmin, xmax, ymin, ymax, zmin, zmax, in the unit of the capture; default -1, 1
-   * each. Used where AutomaticBounds is off. A larger box gives larger octants at the same Depth; a box that does
-   * not hold the object cuts it, with a warning.
+   * A box that holds the object, xmin, xmax, ymin, ymax, zmin, zmax, in the unit of the capture; default -1,
+   * 1 each. Used where AutomaticBounds is off. A larger box gives larger octants at the same Depth; a box
+   * that does not hold the object cuts it, with a warning.
    */
   vtkSetVector6Macro(Bounds, double);
   vtkGetVector6Macro(Bounds, double);
@@ -137,8 +138,8 @@ public:
 
   ///@{
   /**
-   * What a view says of points outside its image: BORDER (default), UNKNOWN or BACKGROUND. BACKGROUND carves most,
-   * UNKNOWN least.
+   * What a view says of points outside its image: BORDER (default), UNKNOWN or BACKGROUND. BACKGROUND carves
+   * most, UNKNOWN least.
    */
   vtkSetClampMacro(OutsidePolicy, int, BORDER, BACKGROUND);
   vtkGetMacro(OutsidePolicy, int);
@@ -159,8 +160,8 @@ public:
   /** Also that of the images given by AddView(). */
   vtkMTimeType GetMTime() override;
 
-  vtkTypeBool ProcessRequest(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+                             vtkInformationVector* outputs) override;
 
 protected:
   vtkSilhouetteOctreeSource();
@@ -173,7 +174,7 @@ protected:
   int Depth;
   double LeafEdge = 0.0;
   bool AutomaticBounds = true;
-  double Bounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
+  double Bounds[6] = {-1.0, 1.0, -1.0, 1.0, -1.0, 1.0};
   int BackgroundVotes;
   int OutsidePolicy;
 

@@ -25,7 +25,7 @@ std::vector<ImageView> maskImages(const silhouette::SyntheticCapture& capture)
   std::vector<ImageView> images;
   for (const silhouette::SyntheticView& view : capture.views)
   {
-    images.push_back(imageOf({ view.name, view.projection, view.mask }));
+    images.push_back(imageOf({view.name, view.projection, view.mask}));
     setField(images.back().image, "IsMask", 1);
   }
   return images;
@@ -36,7 +36,8 @@ std::vector<ImageView> photographImages(const silhouette::SyntheticCapture& capt
   std::vector<ImageView> images;
   for (const silhouette::SyntheticView& view : capture.views)
   {
-    images.push_back({ makeImage({ capture.width, capture.height, 3, view.photograph }), view.name, view.projection });
+    images.push_back(
+        {makeImage({capture.width, capture.height, 3, view.photograph}), view.name, view.projection});
   }
   return images;
 }
@@ -46,7 +47,7 @@ std::vector<ImageView> photographImages(const silhouette::SyntheticCapture& capt
 vtkStandardNewMacro(vtkSyntheticCaptureSource);
 
 vtkSyntheticCaptureSource::vtkSyntheticCaptureSource()
-  : Refinement(silhouette::SyntheticShapeOptions().refinement)
+    : Refinement(silhouette::SyntheticShapeOptions().refinement)
 {
   const silhouette::SyntheticCaptureOptions defaults;
   this->NumberOfViews = defaults.views;
@@ -90,16 +91,16 @@ void vtkSyntheticCaptureSource::SetInputData(vtkPolyData* mesh)
   this->SetInputDataInternal(0, mesh);
 }
 
-int vtkSyntheticCaptureSource::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+int vtkSyntheticCaptureSource::RequestInformation(vtkInformation*, vtkInformationVector**,
+                                                  vtkInformationVector* outputs)
 {
   outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
   outputs->GetInformationObject(2)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
   return 1;
 }
 
-int vtkSyntheticCaptureSource::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkSyntheticCaptureSource::RequestData(vtkInformation*, vtkInformationVector** inputs,
+                                           vtkInformationVector* outputs)
 {
   vtkPolyData* given = vtkPolyData::GetData(inputs[0]);
 
@@ -107,9 +108,10 @@ int vtkSyntheticCaptureSource::RequestData(
   {
     silhouette::SyntheticShapeOptions shapeOptions;
     shapeOptions.refinement = this->Refinement;
-    const silhouette::Mesh truth = given
-      ? meshOf(given, "the mesh to photograph")
-      : silhouette::syntheticShape(static_cast<silhouette::SyntheticShape>(this->Shape), shapeOptions);
+    const silhouette::Mesh truth =
+        given
+            ? meshOf(given, "the mesh to photograph")
+            : silhouette::syntheticShape(static_cast<silhouette::SyntheticShape>(this->Shape), shapeOptions);
     execution.checkpoint(0.2);
 
     silhouette::SyntheticCaptureOptions options;
@@ -136,7 +138,7 @@ int vtkSyntheticCaptureSource::RequestData(
 void vtkSyntheticCaptureSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const char* const shapes[] = { "Jug", "Sphere", "Torus", "Twig" };
+  const char* const shapes[] = {"Jug", "Sphere", "Torus", "Twig"};
   os << indent << "Shape: " << shapes[this->Shape] << "\n";
   os << indent << "Refinement: " << this->Refinement << "\n";
   os << indent << "NumberOfViews: " << this->NumberOfViews << "\n";

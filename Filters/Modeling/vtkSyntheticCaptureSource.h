@@ -3,8 +3,8 @@
  * @class   vtkSyntheticCaptureSource
  * @brief   photograph a known solid with known cameras, with noise of a known strength
  *
- * Makes a capture with its truth: the silhouettes and shaded photographs of a shape or of a given mesh, and the
- * cameras, each with the kinds of noise that real captures suffer from.
+ * Makes a capture with its truth: the silhouettes and shaded photographs of a shape or of a given mesh, and
+ * the cameras, each with the kinds of noise that real captures suffer from.
  *
  * | port | data set | array | type, components | meaning |
  * | --- | --- | --- | --- | --- |
@@ -16,16 +16,16 @@
  * | output 2 | vtkPartitionedDataSetCollection of vtkImageData | point scalars | unsigned char, 3 | the photographs, without noise, on a plain background |
  * | | | field `Projection` | double, 12 | as in output 0 |
  *
- * Steps: the cameras are placed on three rings around the mesh's bounding sphere, z upwards; each view is rendered
- * (a pixel is object where its centre lies in a projected triangle); contour noise comes first, then blobs, then
- * pixels. What is drawn depends on Seed, the kind of noise and the view's number alone.
+ * Steps: the cameras are placed on three rings around the mesh's bounding sphere, z upwards; each view is
+ * rendered (a pixel is object where its centre lies in a projected triangle); contour noise comes first, then
+ * blobs, then pixels. What is drawn depends on Seed, the kind of noise and the view's number alone.
  *
- * Cost: some milliseconds a view for each 100,000 triangles and each megapixel. Memory: 9 bytes a pixel and view. All
- * views are given to every piece.
+ * Cost: some milliseconds a view for each 100,000 triangles and each megapixel. Memory: 9 bytes a pixel and
+ * view. All views are given to every piece.
  *
- * Errors (message, empty outputs): a setting out of range; a mesh that is empty, not finite or not of triangles.
- * AbortExecute is honoured: the outputs are then empty, without an error. VTK does not run an aborted or failed filter
- * again by itself: call Modified() to ask for it.
+ * Errors (message, empty outputs): a setting out of range; a mesh that is empty, not finite or not of
+ * triangles. AbortExecute is honoured: the outputs are then empty, without an error. VTK does not run an
+ * aborted or failed filter again by itself: call Modified() to ask for it.
  *
  * @sa vtkSilhouetteOctreeSource vtkSilhouetteEvaluator
  */
@@ -37,7 +37,8 @@
 
 class vtkPolyData;
 
-class VTKSILHOUETTEFILTERSMODELING_EXPORT vtkSyntheticCaptureSource : public vtkPartitionedDataSetCollectionAlgorithm
+class VTKSILHOUETTEFILTERSMODELING_EXPORT vtkSyntheticCaptureSource
+    : public vtkPartitionedDataSetCollectionAlgorithm
 {
 public:
   static vtkSyntheticCaptureSource* New();
@@ -65,8 +66,8 @@ public:
 
   ///@{
   /**
-   * Fineness of the shape's mesh, relative to the default 1, 0.5 to 4. Larger is finer; the triangles grow with
-   * its square.
+   * Fineness of the shape's mesh, relative to the default 1, 0.5 to 4. Larger is finer; the triangles grow
+   * with its square.
    */
   vtkSetMacro(Refinement, double);
   vtkGetMacro(Refinement, double);
@@ -137,8 +138,10 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputs,
+                         vtkInformationVector* outputs) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
+                  vtkInformationVector* outputs) override;
 
   int Shape = JUG;
   double Refinement;

@@ -20,22 +20,22 @@ using namespace silhouette::modeling;
 vtkStandardNewMacro(vtkVotingMarchingCubes);
 
 vtkVotingMarchingCubes::vtkVotingMarchingCubes()
-  : Share(silhouette::VotingOptions().share)
-  , EdgePlacement(static_cast<int>(silhouette::VotingOptions().edges))
-  , Mode(static_cast<int>(silhouette::VotingOptions().mode))
+    : Share(silhouette::VotingOptions().share),
+      EdgePlacement(static_cast<int>(silhouette::VotingOptions().edges)),
+      Mode(static_cast<int>(silhouette::VotingOptions().mode))
 {
   this->SetNumberOfInputPorts(2);
 }
 
 int vtkVotingMarchingCubes::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(
-    vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkHyperTreeGrid" : "vtkPartitionedDataSetCollection");
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
+            port == 0 ? "vtkHyperTreeGrid" : "vtkPartitionedDataSetCollection");
   return 1;
 }
 
-int vtkVotingMarchingCubes::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkVotingMarchingCubes::RequestData(vtkInformation*, vtkInformationVector** inputs,
+                                        vtkInformationVector* outputs)
 {
   vtkHyperTreeGrid* grid = vtkHyperTreeGrid::GetData(inputs[0]);
   vtkPartitionedDataSetCollection* collection = vtkPartitionedDataSetCollection::GetData(inputs[1]);
@@ -59,7 +59,8 @@ int vtkVotingMarchingCubes::RequestData(
     options.share = this->Share;
     options.edges = static_cast<silhouette::EdgePlacement>(this->EdgePlacement);
     options.mode = static_cast<silhouette::VotingMode>(this->Mode);
-    const silhouette::VotingSurface found = silhouette::votingMarchingCubes(octree, *views, options, contouring);
+    const silhouette::VotingSurface found =
+        silhouette::votingMarchingCubes(octree, *views, options, contouring);
 
     MeshOutput output;
     output.pointsPrecision = this->OutputPointsPrecision;

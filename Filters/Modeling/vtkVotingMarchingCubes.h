@@ -3,8 +3,8 @@
  * @class   vtkVotingMarchingCubes
  * @brief   marching cubes on the octree of silhouettes, with a vote of the views at each corner
  *
- * Contours the last generation of a vtkSilhouetteOctreeSource's octree: a corner is inside where enough views say
- * so. With all views (Share 1) this is plain marching cubes; with fewer, wrong views are outvoted.
+ * Contours the last generation of a vtkSilhouetteOctreeSource's octree: a corner is inside where enough views
+ * say so. With all views (Share 1) this is plain marching cubes; with fewer, wrong views are outvoted.
  *
  * | port | data set | array | type, components | meaning |
  * | --- | --- | --- | --- | --- |
@@ -13,32 +13,33 @@
  * | output 0 | vtkPolyData, triangles, normals outwards | points `InsideVotes` | unsigned short, 2 | inside votes at the inside and the outside end of the point's lattice edge |
  * | | | points `Normals` | float, 3 | where GenerateNormals is on |
  * | | | field `IntersectionOctants`, `LostNoCorner`, `LostAllCorners` | 64-bit unsigned, 1 | octants of the last generation; those without and those with eight inside corners |
- * | | | field `Vertices`, `Faces` | 64-bit unsigned, 1 | of the surface |
+ * | | | field `Vertices`, `Faces` | 64-bit unsigned, 1 | of the surface; the octree's field data pass through |
  *
  * A corner needs n inside votes, n the least integer at least Share times the number of views; views that see
  * nothing of it count as inside votes, a corner that no view sees is outside.
  *
- * Steps: the corners of the last generation's intersection octants are collected and voted on; one case table,
- * whose rule on a face depends on that face alone, gives the triangles; each vertex is put in the middle of its
- * lattice edge or where the votes fail along it.
+ * Steps: the corners of the last generation's intersection octants are collected and voted on; one case
+ * table, whose rule on a face depends on that face alone, gives the triangles; each vertex is put in the
+ * middle of its lattice edge or where the votes fail along it.
  *
- * In the mode CONSISTENT the octree must allow exactly the background votes that the share leaves (views less n;
- * vtkSilhouetteOctreeSource::SetBackgroundVotes), and the surface is closed; FAITHFUL takes the strict octree at
- * any share, and the surface opens below share 1, as in the publication.
+ * In the mode CONSISTENT the octree must allow exactly the background votes that the share leaves (views less
+ * n; vtkSilhouetteOctreeSource::SetBackgroundVotes), and the surface is closed; FAITHFUL takes the strict
+ * octree at any share, and the surface opens below share 1, as in the publication.
  *
- * Cost: proportional to the octants times the views. Memory: about 100 bytes an octant of the last generation.
+ * Cost: proportional to the octants times the views. Memory: about 100 bytes an octant of the last
+ * generation.
  *
- * Limits: thin parts that hold no corner vanish (they are counted in `LostNoCorner`); vtkLocalHullSurfacer keeps
- * them. An empty octree gives an empty surface without a message. Errors: octree and views that do not belong
- * together; a share outside (0, 1]; an octree of other background votes than mode and share need; single precision
- * too coarse for the depth.
+ * Limits: thin parts that hold no corner vanish (they are counted in `LostNoCorner`); vtkLocalHullSurfacer
+ * keeps them. An empty octree gives an empty surface without a message. Errors: octree and views that do not
+ * belong together; a share outside (0, 1]; an octree of other background votes than mode and share need;
+ * single precision too coarse for the depth.
  *
  * AbortExecute is honoured: the output is then empty, without an error. VTK does not run an aborted or failed
  * filter again by itself: call Modified() to ask for it.
  *
- * See D. Shin and T. Tjahjadi, "Local hull-based surface construction of volumetric data from silhouettes", IEEE
- * Transactions on Image Processing 17 (8), 2008; the vote is equation 6.1 of the thesis behind it. The exact
- * placement follows C. Liang and K.-Y. K. Wong, "Exact visual hull from marching cubes", VISAPP 2008.
+ * See D. Shin and T. Tjahjadi, "Local hull-based surface construction of volumetric data from silhouettes",
+ * IEEE Transactions on Image Processing 17 (8), 2008; the vote is equation 6.1 of the thesis behind it. The
+ * exact placement follows C. Liang and K.-Y. K. Wong, "Exact visual hull from marching cubes", VISAPP 2008.
  *
  * @sa vtkSilhouetteOctreeSource vtkLocalHullSurfacer vtkSilhouetteEvaluator
  */
@@ -71,8 +72,8 @@ public:
 
   ///@{
   /**
-   * Share of the views that must call a corner inside, above 0 to 1, default 1. Larger gives a smaller object and
-   * believes single views more. Out of range is an error of Update().
+   * Share of the views that must call a corner inside, above 0 to 1, default 1. Larger gives a smaller object
+   * and believes single views more. Out of range is an error of Update().
    */
   vtkSetMacro(Share, double);
   vtkGetMacro(Share, double);
@@ -121,7 +122,8 @@ protected:
   ~vtkVotingMarchingCubes() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
+                  vtkInformationVector* outputs) override;
 
   double Share;
   int EdgePlacement;

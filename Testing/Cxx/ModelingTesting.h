@@ -42,33 +42,42 @@ using Matrix = std::array<double, 12>;
 class Listener
 {
 public:
-  explicit Listener(vtkAlgorithm* filter)
+  explicit Listener(vtkAlgorithm* filter) : Objects({filter, filter->GetExecutive()})
   {
     this->Command->SetClientData(this);
     this->Command->SetCallback(
-      [](vtkObject* from, unsigned long event, void* self, void* text)
-      {
-        auto* listener = static_cast<Listener*>(self);
-        const std::string what = text ? static_cast<const char*>(text) : "";
-        if (event == vtkCommand::WarningEvent)
+        [](vtkObject* from, unsigned long event, void* self, void* text)
         {
-          listener->Warnings.push_back(what);
-        }
-        else if (vtkExecutive::SafeDownCast(from))
-        {
-          listener->ExecutiveErrors.push_back(what);
-        }
-        else
-        {
-          listener->Errors.push_back(what);
-        }
-      });
-    for (vtkObject* object : { static_cast<vtkObject*>(filter), static_cast<vtkObject*>(filter->GetExecutive()) })
+          auto* listener = static_cast<Listener*>(self);
+          const std::string what = text ? static_cast<const char*>(text) : "";
+          if (event == vtkCommand::WarningEvent)
+          {
+            listener->Warnings.push_back(what);
+          }
+          else if (vtkExecutive::SafeDownCast(from))
+          {
+            listener->ExecutiveErrors.push_back(what);
+          }
+          else
+          {
+            listener->Errors.push_back(what);
+          }
+        });
+    for (const auto& object : this->Objects)
     {
       object->AddObserver(vtkCommand::ErrorEvent, this->Command);
       object->AddObserver(vtkCommand::WarningEvent, this->Command);
     }
   }
+  ~Listener()
+  {
+    for (const auto& object : this->Objects)
+    {
+      object->RemoveObserver(this->Command);
+    }
+  }
+  Listener(const Listener&) = delete;
+  void operator=(const Listener&) = delete;
 
   std::vector<std::string> Errors;
   std::vector<std::string> ExecutiveErrors;
@@ -78,12 +87,17 @@ public:
   int warnings(const std::string& text) const
   {
     return int(std::count_if(this->Warnings.begin(), this->Warnings.end(),
-      [&](const std::string& warning) { return warning.find(text) != std::string::npos; }));
+                             [&](const std::string& warning)
+                             { return warning.find(text) != std::string::npos; }));
   }
-  bool silent() const { return this->Errors.empty() && this->ExecutiveErrors.empty() && this->Warnings.empty(); }
+  bool silent() const
+  {
+    return this->Errors.empty() && this->ExecutiveErrors.empty() && this->Warnings.empty();
+  }
 
 private:
   vtkNew<vtkCallbackCommand> Command;
+  std::vector<vtkSmartPointer<vtkObject>> Objects;
 };
 
 /** Cells, points, rows and views of a data object: none where it is empty. */
@@ -91,54 +105,62 @@ inline vtkIdType elements(vtkDataObject* data)
 {
   auto* views = vtkPartitionedDataSetCollection::SafeDownCast(data);
   return views ? vtkIdType(views->GetNumberOfPartitionedDataSets())
-               : data->GetNumberOfElements(vtkDataObject::CELL) + data->GetNumberOfElements(vtkDataObject::POINT) +
-      data->GetNumberOfElements(vtkDataObject::ROW);
+               : data->GetNumberOfElements(vtkDataObject::CELL) +
+                     data->GetNumberOfElements(vtkDataObject::POINT) +
+                     data->GetNumberOfElements(vtkDataObject::ROW);
 }
 
-/** Update fails with one error of the filter, which holds all the texts, and one of its executive. */
-inline void expectError(vtkAlgorithm* filter, const std::vector<std::string>& texts, int port = 0)
+/**
+ * Update of `port` (-1: of the first, and all are looked at) fails with one error of the filter, which holds
+ * all the texts, and one of its executive; the output is empty.
+ */
+inline void expectError(vtkAlgorithm* filter, const std::vector<std::string>& texts, int port = -1)
 {
   const Listener listener(filter);
   filter->Modified();
-  filter->Update(port);
+  filter->Update(std::max(port, 0));
   ASSERT_EQ(listener.Errors.size(), 1u);
   EXPECT_EQ(listener.ExecutiveErrors.size(), 1u);
   for (const std::string& text : texts)
   {
-    EXPECT_NE(listener.Errors[0].find(text), std::string::npos) << "'" << text << "' is not in " << listener.Errors[0];
+    EXPECT_NE(listener.Errors[0].find(text), std::string::npos)
+        << "'" << text << "' is not in " << listener.Errors[0];
   }
   for (int i = 0; i < filter->GetNumberOfOutputPorts(); ++i)
   {
-    vtkDataObject* data = filter->GetOutputDataObject(i);
-    EXPECT_EQ(elements(data), 0);
+    EXPECT_TRUE((port >= 0 && port != i) || elements(filter->GetOutputDataObject(i)) == 0) << "output " << i;
   }
 }
 
-/** Takes down a filter's progress, and may ask it to stop once a fraction is reached. */
+/** Takes down a filter's progress, and asks it to stop once a fraction is reached. */
 class ProgressListener
 {
 public:
-  explicit ProgressListener(vtkAlgorithm* filter, double abortAt = 2.0)
-    : AbortAt(abortAt)
+  explicit ProgressListener(vtkAlgorithm* filter, double stopAt = 2.0) : Filter(filter), StopAt(stopAt)
   {
     this->Command->SetClientData(this);
     this->Command->SetCallback(
-      [](vtkObject* from, unsigned long, void* self, void* fraction)
-      {
-        auto* listener = static_cast<ProgressListener*>(self);
-        listener->Values.push_back(*static_cast<double*>(fraction));
-        if (listener->Values.back() >= listener->AbortAt)
+        [](vtkObject*, unsigned long, void* self, void* fraction)
         {
-          static_cast<vtkAlgorithm*>(from)->SetAbortExecute(1);
-        }
-      });
+          auto* listener = static_cast<ProgressListener*>(self);
+          listener->Values.push_back(*static_cast<double*>(fraction));
+          if (listener->Values.back() >= listener->StopAt)
+          {
+            listener->Filter->SetAbortExecute(1);
+          }
+        });
     filter->AddObserver(vtkCommand::ProgressEvent, this->Command);
   }
+  ~ProgressListener() { this->Filter->RemoveObserver(this->Command); }
+  ProgressListener(const ProgressListener&) = delete;
+  void operator=(const ProgressListener&) = delete;
+
   std::vector<double> Values;
 
 private:
   vtkNew<vtkCallbackCommand> Command;
-  double AbortAt;
+  vtkSmartPointer<vtkAlgorithm> Filter;
+  double StopAt;
 };
 
 /** Progress is reported more than once, never falls and ends at 1. */
@@ -157,28 +179,17 @@ inline void expectAbort(vtkAlgorithm* filter, double at, int port = 0)
 {
   {
     const Listener listener(filter);
+    const ProgressListener stop(filter, at);
     filter->Modified();
-    vtkNew<vtkCallbackCommand> stop;
-    stop->SetClientData(&at);
-    stop->SetCallback(
-      [](vtkObject* from, unsigned long, void* fraction, void* now)
-      {
-        if (*static_cast<double*>(now) >= *static_cast<double*>(fraction))
-        {
-          static_cast<vtkAlgorithm*>(from)->SetAbortExecute(1);
-        }
-      });
-    const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, stop);
     filter->Update(port);
-    filter->RemoveObserver(tag);
     EXPECT_TRUE(listener.silent());
-    vtkDataObject* data = filter->GetOutputDataObject(port);
-    EXPECT_EQ(elements(data), 0);
+    EXPECT_EQ(elements(filter->GetOutputDataObject(port)), 0);
+    ASSERT_FALSE(stop.Values.empty());
+    EXPECT_LT(stop.Values.back(), 1.0);
   }
   filter->Modified();
   filter->Update(port);
-  vtkDataObject* data = filter->GetOutputDataObject(port);
-  EXPECT_GT(elements(data), 0);
+  EXPECT_GT(elements(filter->GetOutputDataObject(port)), 0);
 }
 
 inline std::string printed(vtkObject* object)
@@ -199,8 +210,7 @@ inline void expectPrints(vtkObject* object, const std::vector<std::string>& name
 }
 
 /** A change advances the modification time. */
-template <typename Change>
-void expectModifies(vtkObject* object, const Change& change)
+template <typename Change> void expectModifies(vtkObject* object, const Change& change)
 {
   const vtkMTimeType before = object->GetMTime();
   change();
@@ -219,7 +229,7 @@ inline Matrix ringCamera(double angle, double distance, int size, double focal)
 {
   const double x = std::cos(angle), y = std::sin(angle), c = 0.5 * (size - 1);
   // right, down, forward
-  const double axes[3][3] = { { -y, x, 0.0 }, { 0.0, 0.0, -1.0 }, { -x, -y, 0.0 } };
+  const double axes[3][3] = {{-y, x, 0.0}, {0.0, 0.0, -1.0}, {-x, -y, 0.0}};
   Matrix p{};
   for (int i = 0; i < 3; ++i)
   {
@@ -239,7 +249,8 @@ inline vtkSmartPointer<vtkImageData> plainImage(int width, int height, unsigned 
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(width, height, 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, channels);
-  std::fill_n(static_cast<unsigned char*>(image->GetScalarPointer()), std::size_t(width) * height * channels, value);
+  std::fill_n(static_cast<unsigned char*>(image->GetScalarPointer()), std::size_t(width) * height * channels,
+              value);
   return image;
 }
 
@@ -289,7 +300,8 @@ inline vtkSmartPointer<vtkPartitionedDataSetCollection> ringViews(int count = 8)
   for (int i = 0; i < count; ++i)
   {
     auto image = discImage(ImageSize, radius);
-    setProjection(image, ringCamera(2.0 * 3.14159265358979 * i / count + 0.1, CameraDistance, ImageSize, Focal));
+    setProjection(image,
+                  ringCamera(2.0 * 3.14159265358979 * i / count + 0.1, CameraDistance, ImageSize, Focal));
     appendView(views, image, "disc" + std::to_string(i) + ".png");
   }
   return views;
@@ -309,8 +321,9 @@ inline double volume(vtkPolyData* surface)
     {
       surface->GetPoint(ids[c], p[c]);
     }
-    sum += p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) - p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
-      p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
+    sum += p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) -
+           p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
+           p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
   }
   return sum / 6.0;
 }
@@ -319,16 +332,15 @@ inline double volume(vtkPolyData* surface)
 inline std::string bytes(vtkDataArray* array)
 {
   return array ? std::string(static_cast<const char*>(array->GetVoidPointer(0)),
-                   std::size_t(array->GetNumberOfValues()) * array->GetDataTypeSize())
+                             std::size_t(array->GetNumberOfValues()) * array->GetDataTypeSize())
                : std::string("none");
 }
 
 /** Run `make` with 1, 2 and 8 threads: all give the same bytes. */
-template <typename Make>
-void expectSameForThreads(const Make& make)
+template <typename Make> void expectSameForThreads(const Make& make)
 {
   std::vector<std::string> results;
-  for (const int threads : { 1, 2, 8 })
+  for (const int threads : {1, 2, 8})
   {
     vtkSMPTools::Initialize(threads);
     results.push_back(make());

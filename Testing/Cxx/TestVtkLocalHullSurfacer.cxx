@@ -43,7 +43,7 @@ struct Pipeline
 
 TEST(VtkLocalHullSurfacer, KeepsItsPromise)
 {
-  for (const bool withViews : { true, false })
+  for (const bool withViews : {true, false})
   {
     Pipeline pipeline(withViews);
     const Listener listener(pipeline.surface);
@@ -62,7 +62,7 @@ TEST(VtkLocalHullSurfacer, KeepsItsPromise)
     vtkPolyData* surface = pipeline.surface->GetOutput();
     EXPECT_GT(field(surface, "Survivors"), 0);
     EXPECT_EQ(field(surface, "IgnoredPoints"), 0);
-    for (const char* name : { "CoveredOctants", "CoveringCorners", "CavitiesFilled", "MovedToMiddle" })
+    for (const char* name : {"CoveredOctants", "CoveringCorners", "CavitiesFilled", "MovedToMiddle"})
     {
       EXPECT_GE(field(surface, name), 0) << name;
     }
@@ -113,7 +113,8 @@ TEST(VtkLocalHullSurfacer, IsAProperFilter)
 {
   Pipeline pipeline;
   vtkLocalHullSurfacer* filter = pipeline.surface;
-  expectPrints(filter, { "FillCavities", "CoverOffset", "SeedBlock", "GenerateNormals", "OutputPointsPrecision" });
+  expectPrints(filter,
+               {"FillCavities", "CoverOffset", "SeedBlock", "GenerateNormals", "OutputPointsPrecision"});
   expectModifies(filter, [&] { filter->SetCoverOffset(0.2); });
   expectModifies(filter, [&] { filter->FillCavitiesOff(); });
   expectModifies(filter, [&] { filter->SetSeedBlock(2); });
@@ -137,48 +138,48 @@ TEST(VtkLocalHullSurfacer, GivesNormalsAndPrecision)
 TEST(VtkLocalHullSurfacer, SameForAnyNumberOfThreads)
 {
   expectSameForThreads(
-    []
-    {
-      Pipeline pipeline;
-      pipeline.surface->Update();
-      pipeline.surface->Update(1);
-      std::string all;
-      for (int port = 0; port < 2; ++port)
+      []
       {
-        auto* out = vtkPolyData::SafeDownCast(pipeline.surface->GetOutputDataObject(port));
-        all += bytes(out->GetPoints()->GetData()) + bytes(out->GetPolys()->GetConnectivityArray());
-      }
-      return all;
-    });
+        Pipeline pipeline;
+        pipeline.surface->Update();
+        pipeline.surface->Update(1);
+        std::string all;
+        for (int port = 0; port < 2; ++port)
+        {
+          auto* out = vtkPolyData::SafeDownCast(pipeline.surface->GetOutputDataObject(port));
+          all += bytes(out->GetPoints()->GetData()) + bytes(out->GetPolys()->GetConnectivityArray());
+        }
+        return all;
+      });
 }
 
 TEST(VtkLocalHullSurfacer, RefusesWhatDoesNotFit)
 {
   Pipeline pipeline;
   pipeline.surface->SetCoverOffset(0.0);
-  expectError(pipeline.surface, { "cover offset 0" });
+  expectError(pipeline.surface, {"cover offset 0"});
   pipeline.surface->SetCoverOffset(0.03);
   pipeline.surface->SetSeedBlock(0);
-  expectError(pipeline.surface, { "seed block 0" }, 1);
+  expectError(pipeline.surface, {"seed block 0"}, 1);
   pipeline.surface->SetSeedBlock(4);
   pipeline.surface->SetViewsData(ringViews(7));
-  expectError(pipeline.surface, { "carved from other views" });
+  expectError(pipeline.surface, {"carved from other views"});
   pipeline.surface->SetViewsConnection(pipeline.octree->GetOutputPort(1));
 
   vtkNew<vtkPolyData> square;
   vtkNew<vtkPoints> points;
-  for (const double x : { 0.0, 1.0 })
+  for (const double x : {0.0, 1.0})
   {
     points->InsertNextPoint(x, x, 0.0);
     points->InsertNextPoint(x, 1.0 - x, 0.0);
   }
   square->SetPoints(points);
   vtkNew<vtkCellArray> cells;
-  const vtkIdType corners[4] = { 0, 3, 2, 1 };
+  const vtkIdType corners[4] = {0, 3, 2, 1};
   cells->InsertNextCell(4, corners);
   square->SetPolys(cells);
   pipeline.surface->SetInputDataObject(0, square);
-  expectError(pipeline.surface, { "the surface", "has 4 corners", "vtkTriangleFilter" });
+  expectError(pipeline.surface, {"the surface", "has 4 corners", "vtkTriangleFilter"});
 }
 
 TEST(VtkLocalHullSurfacer, EmptyInputGivesEmptyOutputSilently)

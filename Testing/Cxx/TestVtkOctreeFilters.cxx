@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Which of VTK's filters for hyper tree grids work on the octree: geometry, outline, cell centers, conversion to an
- * unstructured grid, threshold, contour, axis cut, plane cutter, depth limiter and the XML files, each held against the
- * octree's own numbers.
+ * Which of VTK's filters for hyper tree grids work on the octree: geometry, cell centers, conversion to an
+ * unstructured grid, threshold, contour, axis cut, plane cutter, depth limiter and the XML files, each held
+ * against the octree's own numbers.
  */
 #include "ModelingTesting.h"
 #include "vtkSilhouetteOctreeSource.h"
@@ -15,7 +15,6 @@
 #include "vtkHyperTreeGridContour.h"
 #include "vtkHyperTreeGridDepthLimiter.h"
 #include "vtkHyperTreeGridGeometry.h"
-#include "vtkHyperTreeGridOutlineFilter.h"
 #include "vtkHyperTreeGridPlaneCutter.h"
 #include "vtkHyperTreeGridThreshold.h"
 #include "vtkHyperTreeGridToUnstructuredGrid.h"
@@ -88,8 +87,8 @@ TEST_F(VtkOctreeFilters, ToUnstructuredGridGivesTheSurvivors)
   filter->Update();
   vtkUnstructuredGrid* cells = filter->GetUnstructuredGridOutput();
   EXPECT_EQ(cells->GetNumberOfCells(), this->Leaves);
-  EXPECT_NEAR(cellVolume(cells), this->Volume, 1e-9 * this->Volume);
-  // Each cell lies where its lattice code says.
+  EXPECT_NEAR(cellVolume(cells), this->Volume, 1e-6 * this->Volume);
+  // Each cell lies where its lattice code says, to the float precision of VTK's points.
   vtkDataArray* codes = cells->GetCellData()->GetArray("LatticeCode");
   vtkDataArray* generations = cells->GetCellData()->GetArray("Generation");
   vtkDataArray* root = this->Grid->GetFieldData()->GetArray("RootCube");
@@ -108,8 +107,8 @@ TEST_F(VtkOctreeFilters, ToUnstructuredGridGivesTheSurvivors)
         coordinate |= int(code >> (3 * bit + axis) & 1) << bit;
       }
       const double edge = std::ldexp(root->GetTuple1(3), -generation);
-      ASSERT_NEAR(b[2 * axis], root->GetTuple1(axis) + edge * coordinate, 1e-9);
-      ASSERT_NEAR(b[2 * axis + 1] - b[2 * axis], edge, 1e-9);
+      ASSERT_NEAR(b[2 * axis], root->GetTuple1(axis) + edge * coordinate, 1e-6);
+      ASSERT_NEAR(b[2 * axis + 1] - b[2 * axis], edge, 1e-6);
     }
   }
 }
@@ -197,22 +196,17 @@ TEST_F(VtkOctreeFilters, CutsGiveAreas)
   EXPECT_LT(area, 3.14 * 1.5);
 }
 
-TEST_F(VtkOctreeFilters, DepthLimiterAndOutlineWork)
+TEST_F(VtkOctreeFilters, DepthLimiterGivesACoarserTree)
 {
   vtkNew<vtkHyperTreeGridDepthLimiter> limiter;
   limiter->SetInputData(this->Grid);
   limiter->SetDepth(1);
-  limiter->JustCreateNewMaskOff();
+  limiter->SetJustCreateNewMask(false);
   limiter->Update();
   auto* coarse = vtkHyperTreeGrid::SafeDownCast(limiter->GetOutputDataObject(0));
   ASSERT_NE(coarse, nullptr);
   EXPECT_GT(coarse->GetNumberOfVertices(), 0);
   EXPECT_LT(coarse->GetNumberOfVertices(), this->Grid->GetNumberOfVertices());
-
-  vtkNew<vtkHyperTreeGridOutlineFilter> outline;
-  outline->SetInputData(this->Grid);
-  outline->Update();
-  EXPECT_EQ(outline->GetPolyDataOutput()->GetNumberOfPoints(), 8);
 }
 
 TEST_F(VtkOctreeFilters, XmlFilesKeepTheOctantsButNotTheFieldData)
@@ -233,7 +227,7 @@ TEST_F(VtkOctreeFilters, XmlFilesKeepTheOctantsButNotTheFieldData)
   cells->Update();
   vtkUnstructuredGrid* leaves = cells->GetUnstructuredGridOutput();
   EXPECT_EQ(leaves->GetNumberOfCells(), this->Leaves);
-  EXPECT_NEAR(cellVolume(leaves), this->Volume, 1e-9 * this->Volume);
+  EXPECT_NEAR(cellVolume(leaves), this->Volume, 1e-6 * this->Volume);
   vtkDataArray* states = leaves->GetCellData()->GetArray("State");
   ASSERT_NE(states, nullptr);
   vtkIdType inside = 0;
@@ -247,7 +241,7 @@ TEST_F(VtkOctreeFilters, XmlFilesKeepTheOctantsButNotTheFieldData)
   vtkNew<vtkVotingMarchingCubes> surface;
   surface->SetInputDataObject(0, grid);
   surface->SetViewsConnection(this->Source->GetOutputPort(1));
-  expectError(surface, { "the octree has no field array" });
+  expectError(surface, {"the octree has no field array"});
 }
 
 TEST_F(VtkOctreeFilters, TheOrderOfTheCellsDoesNotMatter)
@@ -262,7 +256,7 @@ TEST_F(VtkOctreeFilters, TheOrderOfTheCellsDoesNotMatter)
   shuffled->DeepCopy(this->Grid);
   vtkCellData* cells = shuffled->GetCellData();
   const vtkIdType count = shuffled->GetNumberOfVertices();
-  for (const char* name : { "State", "Generation", "LatticeCode" })
+  for (const char* name : {"State", "Generation", "LatticeCode"})
   {
     vtkDataArray* array = cells->GetArray(name);
     for (vtkIdType i = 0; i < count / 2; ++i)
@@ -286,7 +280,7 @@ TEST_F(VtkOctreeFilters, TheOrderOfTheCellsDoesNotMatter)
     ++parent;
   }
   states->SetTuple1(parent, 1.0);
-  expectError(surface, { "the octree is incomplete", "generation 5" });
+  expectError(surface, {"the octree is incomplete", "generation 5"});
   states->SetTuple1(parent, 9.0);
-  expectError(surface, { "state 9" });
+  expectError(surface, {"state 9"});
 }

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CellSafety.h"
+
+#include "CarvingTestCaptures.h"
+#include "SelfIntersections.h"
+
+#include <gtest/gtest.h>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+struct RandomLabels
+{
+  explicit RandomLabels(int n)
+    : lattice{ { Eigen::Vector3d(0.3, -4, 10), 1.6 }, 4 }
+  {
+    Random random(9);
+    std::vector<std::uint64_t> cells;
+    for (int c = 0; c < n * n * n; ++c)
+    {
+      cells.push_back(mortonCode({ c % n, c / n % n, c / n / n }));
+    }
+    std::sort(cells.begin(), cells.end());
+    this->shell = makeCornerShell(cells, this->execution);
+    std::vector<std::uint8_t> inside;
+    for (const auto code : this->shell.corners)
+    {
+      const LatticePoint p = fromMorton(code);
+      const bool border = p.i % n == 0 || p.j % n == 0 || p.k % n == 0;
+      inside.push_back(!border && random.below(2));
+    }
+    this->surface = contour(this->shell, inside, this->execution);
+    for (std::size_t e = 0; e < this->surface.edges.size(); ++e)
+    {
+      this->fractions.push_back(random.below(2) ? 0.01 : 0.99);
+    }
+  }
+  Execution execution;
+  Lattice lattice;
+  CornerShell shell;
+  LatticeSurface surface;
+  std::vector<double> fractions;
+};
+
+} // namespace
+
+TEST(CellSafety, RepairsACellThatWasMadeToIntersectItself)
+{
+  RandomLabels r(12);
+  Mesh mesh = placePoints(r.lattice, r.shell, r.surface, r.fractions, false);
+  EXPECT_EQ(removeCellIntersections(r.lattice, r.shell, r.surface, false, mesh, r.execution), 0u);
+  EXPECT_TRUE(selfIntersections(mesh, r.execution).empty());
+  // Push points off their edges, far enough to fold their cells.
+  int broken = 0;
+  for (std::size_t p = 0; p < mesh.points.size(); p += 97)
+  {
+    mesh.points[p] += Eigen::Vector3d(0.21, -0.17, 0.13);
+    ++broken;
+  }
+  ASSERT_FALSE(selfIntersections(mesh, r.execution).empty());
+  EXPECT_GT(removeCellIntersections(r.lattice, r.shell, r.surface, false, mesh, r.execution), 0u);
+  std::vector<std::uint8_t> bad(r.shell.cells.size(), 0);
+  for (std::size_t cell = 0; cell < bad.size(); ++cell)
+  {
+    std::vector<std::int32_t> own;
+    for (std::uint32_t t = cell ? r.surface.cellEnd[cell - 1] : 0; t < r.surface.cellEnd[cell]; ++t)
+    {
+      own.push_back(std::int32_t(t));
+    }
+    EXPECT_TRUE(selfIntersectionsAmong(mesh, own, r.execution).empty());
+  }
+}
+
+TEST(CellSafety, PointsStayApartInSinglePrecision)
+{
+  RandomLabels r(12);
+  const Mesh mesh = placePoints(r.lattice, r.shell, r.surface, r.fractions, true);
+  for (const auto& p : mesh.points)
+  {
+    EXPECT_EQ(p, p.cast<float>().cast<double>().eval());
+  }
+  EXPECT_TRUE(assessMesh(mesh, r.execution).sound());
+}
+
+TEST(CellSafety, FloatThatIsTooCoarseForTheDepthIsAnError)
+{
+  EXPECT_NO_THROW(requireSinglePrecision({ { Eigen::Vector3d(-1, -1, -1), 2.0 }, 12 }));
+  EXPECT_THROW(requireSinglePrecision({ { Eigen::Vector3d(-1, -1, -1), 2.0 }, 16 }), InvalidInput);
+  EXPECT_THROW(requireSinglePrecision({ { Eigen::Vector3d(5e6, 0, 0), 2.0 }, 6 }), InvalidInput);
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CornerShell.h"
+
+#include "CarvingTestCaptures.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+TEST(CornerShell, SharesTheCornersOfItsCells)
+{
+  Random random(4);
+  std::set<std::uint64_t> cells, corners;
+  for (int n = 0; n < 9000; ++n)
+  {
+    const LatticePoint p{ random.below(40), random.below(40), random.below(40) };
+    cells.insert(mortonCode(p));
+    for (int c = 0; c < 8; ++c)
+    {
+      corners.insert(mortonCode(p + cornerOffset(c)));
+    }
+  }
+  ThreadedExecution execution(3);
+  const CornerShell shell = makeCornerShell({ cells.begin(), cells.end() }, execution);
+  EXPECT_TRUE(std::equal(corners.begin(), corners.end(), shell.corners.begin(), shell.corners.end()));
+  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
+  {
+    for (int c = 0; c < 8; ++c)
+    {
+      EXPECT_EQ(shell.corners[shell.cellCorners[cell][c]], mortonCode(fromMorton(shell.cells[cell]) + cornerOffset(c)));
+    }
+  }
+  for (std::size_t c = 0; c < shell.corners.size(); ++c)
+  {
+    EXPECT_EQ(shell.find(shell.corners[c]), std::ptrdiff_t(c));
+  }
+  EXPECT_EQ(shell.find(mortonCode({ 100, 100, 100 })), -1);
+}
+
+TEST(CornerShell, LeafCellsAreTheLastGenerationOfOneState)
+{
+  const PreparedViews prepared = prepareViews(viewsOf(sphereMesh(3, 0.9), swayingRing(8, 96), 96));
+  const Octree octree = carveViews(prepared, unitCube(), 5);
+  const auto cells = leafCells(octree, OctantState::Intersection);
+  EXPECT_EQ(cells.size(), octree.count(OctantState::Intersection, 5));
+  EXPECT_TRUE(std::is_sorted(cells.begin(), cells.end()));
+  EXPECT_TRUE(leafCells(Octree(), OctantState::Inside).empty());
+}

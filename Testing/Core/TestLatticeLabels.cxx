@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LatticeLabels.h"
+
+#include "CarvingTestCaptures.h"
+
+#include <gtest/gtest.h>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+struct Scene
+{
+  explicit Scene(int noise)
+  {
+    Random random(77);
+    auto views = viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(10, 120), 120);
+    disturb(views, noise, random);
+    this->views = prepareViews(views);
+    this->octree = carveViews(this->views, unitCube(), 5);
+    this->surface = votingMarchingCubes(this->octree, this->views, VotingOptions(), this->execution);
+    this->shell = makeCornerShell(leafCells(this->octree, OctantState::Intersection), this->execution);
+  }
+  Execution execution;
+  PreparedViews views;
+  Octree octree;
+  VotingSurface surface;
+  CornerShell shell;
+};
+
+} // namespace
+
+TEST(LatticeLabels, EveryPointOfAMarchingCubesSurfaceIsFoundOnItsEdge)
+{
+  const Scene scene(0);
+  const SurfaceCrossings crossings = locateCrossings(scene.surface.mesh, scene.octree.lattice);
+  EXPECT_EQ(crossings.ignoredPoints, 0u);
+  EXPECT_EQ(crossings.crossings.size(), scene.surface.mesh.points.size());
+  Mesh moved = scene.surface.mesh;
+  for (auto& p : moved.points)
+  {
+    p += Eigen::Vector3d::Constant(0.2 * scene.octree.lattice.leafEdge());
+  }
+  EXPECT_EQ(locateCrossings(moved, scene.octree.lattice).ignoredPoints, moved.points.size());
+}
+
+/** Without views the surface has to give the labels back that it was made from. */
+TEST(LatticeLabels, LabelsFromTheSurfaceAreThoseOfTheVotes)
+{
+  for (const int noise : { 0, 2 })
+  {
+    Scene scene(noise);
+    const LatticeLabels voted(scene.octree, scene.shell, scene.views, scene.execution);
+    const LatticeLabels read(
+      scene.octree, scene.shell, locateCrossings(scene.surface.mesh, scene.octree.lattice));
+    std::size_t differing = 0;
+    for (std::size_t c = 0; c < voted.inside().size(); ++c)
+    {
+      differing += voted.inside()[c] != read.inside()[c];
+    }
+    // A sliver's averaged normal may point along its edge; a corner that no crossing reaches is a guess.
+    EXPECT_LE(differing, voted.inside().size() / 200) << "noise " << noise;
+  }
+}
+
+TEST(LatticeLabels, OfAnyPointAgreeWithTheVotesWithinAndBeyondTheShell)
+{
+  Scene scene(1);
+  const LatticeLabels labels(scene.octree, scene.shell, scene.views, scene.execution);
+  const LatticeViews lattice(scene.views, scene.octree.lattice);
+  for (int n = 0; n < 33 * 33 * 33; ++n)
+  {
+    const LatticePoint p{ n % 33, n / 33 % 33, n / 33 / 33 };
+    const bool expected = !scene.octree.lattice.onBorder(p) && lattice.insideVotes(p) == scene.views.size();
+    EXPECT_EQ(labels.insideAt(p), expected);
+  }
+}
+
+TEST(LatticeLabels, FilledOctantsAreInside)
+{
+  Scene scene(0);
+  LatticeLabels labels(scene.octree, scene.shell, scene.views, scene.execution);
+  const auto& octree = labels.octree();
+  for (std::size_t i = 0; i < octree.generations[3].size(); ++i)
+  {
+    const LatticePoint p = fromMorton(octree.generations[3].code[i]);
+    const bool middle = p.i > 0 && p.j > 0 && p.k > 0 && p.i < 7 && p.j < 7 && p.k < 7;
+    if (middle && octree.generations[3].state[i] == OctantState::Background)
+    {
+      const LatticePoint within{ 4 * p.i + 2, 4 * p.j + 2, 4 * p.k + 2 };
+      EXPECT_FALSE(labels.insideAt(within));
+      labels.fillOctant(3, i);
+      EXPECT_TRUE(labels.insideAt(within));
+      return;
+    }
+  }
+  FAIL() << "no background octant of generation 3";
+}

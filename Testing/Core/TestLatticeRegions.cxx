@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LatticeRegions.h"
+
+#include "CarvingTestCaptures.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+/** Components of the given cells or corners of a cube of n, by flooding; neighbours differ in at most `reach` coordinates. */
+template <typename Member>
+int floodComponents(int n, int reach, const Member& member)
+{
+  std::vector<int> done(std::size_t(n) * n * n, 0);
+  int count = 0;
+  for (int seed = 0; seed < n * n * n; ++seed)
+  {
+    if (done[seed] || !member(LatticePoint{ seed % n, seed / n % n, seed / n / n }))
+    {
+      continue;
+    }
+    ++count;
+    std::vector<int> stack = { seed };
+    done[seed] = 1;
+    while (!stack.empty())
+    {
+      const int at = stack.back();
+      stack.pop_back();
+      for (int d = 0; d < 27; ++d)
+      {
+        const int dx = d % 3 - 1, dy = d / 3 % 3 - 1, dz = d / 9 - 1;
+        const LatticePoint q{ at % n + dx, at / n % n + dy, at / n / n + dz };
+        const bool within = q.i >= 0 && q.j >= 0 && q.k >= 0 && q.i < n && q.j < n && q.k < n;
+        const int index = q.i + n * (q.j + n * q.k);
+        if (within && std::abs(dx) + std::abs(dy) + std::abs(dz) <= reach && !done[index] && member(q))
+        {
+          done[index] = 1;
+          stack.push_back(index);
+        }
+      }
+    }
+  }
+  return count;
+}
+
+/** Two rings of views see the gap between two shells: with a vote allowed, a cavity stays. */
+std::vector<View> annulusViews()
+{
+  std::vector<View> views;
+  const int size = 100;
+  for (const auto& camera : axisCameras(38.0, size))
+  {
+    View view{ "annulus", camera, { size, size, {} } };
+    for (int i = 0; i < size * size; ++i)
+    {
+      const double r = std::hypot(i % size - 0.5 * (size - 1), i / size - 0.5 * (size - 1)) / 38.0;
+      view.silhouette.pixels.push_back(r < 1.0 && r > 0.45);
+    }
+    views.push_back(view);
+  }
+  views.resize(2);
+  View disc = views[0];
+  disc.projection = axisCameras(38.0, size)[2];
+  for (int i = 0; i < size * size; ++i)
+  {
+    disc.silhouette.pixels[i] = std::hypot(i % size - 49.5, i / size - 49.5) / 38.0 < 1.0;
+  }
+  views.push_back(disc);
+  return views;
+}
+
+} // namespace
+
+TEST(LatticeRegions, SolidSurvivorsAndCavitiesAgreeWithFlooding)
+{
+  Execution execution;
+  for (int kind = 0; kind <= 5; ++kind)
+  {
+    Random random(60 + kind);
+    auto captured = viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(8, 120), 120);
+    disturb(captured, kind, random);
+    const PreparedViews views = prepareViews(captured);
+    const Octree octree = carveViews(views, unitCube(), 5, kind == 4 ? 3 : kind % 2);
+    const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
+    LatticeLabels labels(octree, shell, views, execution);
+    EXPECT_EQ(countSurvivorComponents(octree, execution),
+      std::uint64_t(floodComponents(
+        32, 3, [&](const LatticePoint& p) { return octree.locate(p).state != OctantState::Background; })));
+    LatticeRegions solid = connectRegions(labels, true);
+    std::set<std::uint32_t> roots;
+    for (std::uint32_t c = 0; c < shell.corners.size(); ++c)
+    {
+      if (labels.inside()[c])
+      {
+        roots.insert(solid.sets.find(c));
+      }
+    }
+    const auto inside = [&](const LatticePoint& p) { return labels.insideAt(p); };
+    const auto outside = [&](const LatticePoint& p) { return !labels.insideAt(p); };
+    EXPECT_EQ(int(roots.size()), floodComponents(33, 2, inside));
+    const int cavities = floodComponents(33, 1, outside) - 1;
+    EXPECT_EQ(fillCavities(labels), std::uint64_t(cavities)) << "noise " << kind;
+    EXPECT_EQ(floodComponents(33, 1, outside), 1);
+    EXPECT_EQ(fillCavities(labels), 0u);
+  }
+}
+
+TEST(LatticeRegions, AStrictHullOfTheAnnuliHasNoCavityOneVoteLeavesOne)
+{
+  Execution execution;
+  const PreparedViews views = prepareViews(annulusViews(), OutsidePolicy::Background);
+  for (const int k : { 0, 1 })
+  {
+    const Octree octree = carveViews(views, unitCube(), 6, k);
+    LatticeLabels labels(
+      octree, makeCornerShell(leafCells(octree, OctantState::Intersection), execution), views, execution);
+    EXPECT_EQ(fillCavities(labels) > 0, k == 1);
+  }
+}

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LocalHullSurface.h"
+
+#include "CarvingTestCaptures.h"
+#include "LatticeRegions.h"
+#include "SurvivorCoverage.h"
+
+#include <gtest/gtest.h>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+/** The promise, judged from the mesh and the octree alone. */
+void expectPromise(const Mesh& mesh, const Octree& octree, const std::string& what)
+{
+  Execution execution;
+  const MeshSoundness s = assessMesh(mesh, execution);
+  EXPECT_TRUE(s.sound()) << what << ": open " << s.openEdges << ", non-manifold " << s.nonManifoldEdges << " + "
+                         << s.nonManifoldVertices << ", self-intersections " << s.selfIntersections;
+  EXPECT_EQ(s.unusedPoints, 0u);
+  EXPECT_EQ(lostSurvivors(octree, mesh, execution), 0u) << what;
+  EXPECT_LE(s.components, countSurvivorComponents(octree, execution)) << what;
+}
+
+Mesh shapeOf(int shape)
+{
+  switch (shape)
+  {
+    case 0:
+      return sphereMesh(4, 0.9);
+    case 1:
+      return torusMesh(48, 24, 0.7, 0.3);
+    case 2:
+      return torusMesh(64, 12, 0.8, 0.02); // thinner than a leaf
+    default:
+      return joined(boxMesh({ -0.9, -0.2, -0.2 }, { -0.3, 0.2, 0.2 }), boxMesh({ 0.2, -0.8, -0.1 }, { 0.3, 0.8, 0.8 }));
+  }
+}
+
+struct Scene
+{
+  Scene(int shape, int kind, int k, OutsidePolicy policy = OutsidePolicy::Border)
+  {
+    Random random(std::uint64_t(1000 + 100 * shape + kind));
+    auto captured = viewsOf(shapeOf(shape), swayingRing(11, 110), 110);
+    disturb(captured, kind, random);
+    this->views = prepareViews(captured, policy);
+    this->octree = carveViews(this->views, unitCube(), 5, k);
+    VotingOptions options;
+    options.share = (11.0 - k) / 11.0;
+    this->surface = votingMarchingCubes(this->octree, this->views, options, this->execution);
+  }
+  Execution execution;
+  PreparedViews views;
+  Octree octree;
+  VotingSurface surface;
+};
+
+} // namespace
+
+TEST(LocalHullSurface, KeepsItsPromiseForEveryShapeNoiseAndVoteWithAndWithoutViews)
+{
+  int runs = 0;
+  for (int shape = 0; shape < 4; ++shape)
+  {
+    for (int kind = 0; kind <= 5; ++kind)
+    {
+      for (const int k : { 0, 3 })
+      {
+        try
+        {
+          const Scene run(shape, kind, k, OutsidePolicy((shape + kind) % 3));
+          const std::string what =
+            "shape " + std::to_string(shape) + " noise " + std::to_string(kind) + " votes " + std::to_string(k);
+          Execution execution;
+          for (const bool withViews : { true, false })
+          {
+            const auto result = localHullSurface(
+              run.surface.mesh, run.octree, withViews ? &run.views : nullptr, LocalHullOptions(), execution);
+            expectPromise(result.mesh, run.octree, what + (withViews ? "" : ", no views"));
+            EXPECT_EQ(result.survivors, survivorsOf(run.octree));
+          }
+          ++runs;
+        }
+        catch (const NothingSurvives&)
+        {
+          EXPECT_EQ(k, 0);
+        }
+      }
+    }
+  }
+  EXPECT_GE(runs, 36);
+}
+
+TEST(LocalHullSurface, KeepsItsPromiseForSurfacesFullOfHoles)
+{
+  Execution execution;
+  const Scene run(1, 2, 0);
+  for (const double share : { 0.9, 0.6, 0.3 })
+  {
+    VotingOptions options;
+    options.share = share;
+    options.mode = VotingMode::Faithful;
+    options.edges = EdgePlacement::Middle;
+    const auto torn = votingMarchingCubes(run.octree, run.views, options, execution);
+    for (const bool withViews : { true, false })
+    {
+      const auto result =
+        localHullSurface(torn.mesh, run.octree, withViews ? &run.views : nullptr, LocalHullOptions(), execution);
+      expectPromise(result.mesh, run.octree, "share " + std::to_string(share));
+    }
+  }
+}
+
+TEST(LocalHullSurface, KeepsItsPromiseForASurfaceThatHasNothingToDoWithTheOctree)
+{
+  Execution execution;
+  const Scene run(3, 0, 0);
+  for (const Mesh& strange : { Mesh(), sphereMesh(2, 0.4), joined(run.surface.mesh, run.surface.mesh) })
+  {
+    for (const bool withViews : { true, false })
+    {
+      const auto result =
+        localHullSurface(strange, run.octree, withViews ? &run.views : nullptr, LocalHullOptions(), execution);
+      expectPromise(result.mesh, run.octree, "strange surface");
+    }
+  }
+}
+
+TEST(LocalHullSurface, KeepsItsPromiseInSinglePrecisionAndForTheShallowestTrees)
+{
+  Execution execution;
+  for (const int depth : { 1, 2, 3 })
+  {
+    const Scene run(0, 1, 3);
+    const Octree octree = carveViews(run.views, unitCube(1.0), depth, 3);
+    LocalHullOptions options;
+    options.singlePrecision = true;
+    const auto result = localHullSurface(Mesh(), octree, &run.views, options, execution);
+    expectPromise(result.mesh, octree, "depth " + std::to_string(depth));
+    for (const auto& p : result.mesh.points)
+    {
+      EXPECT_EQ(p, p.cast<float>().cast<double>().eval());
+    }
+  }
+}
+
+TEST(LocalHullSurface, AnObjectCutByTheCubeStaysWhole)
+{
+  Execution execution;
+  const Scene run(1, 0, 0);
+  const Octree octree = carveViews(run.views, { Vector3(-0.3, 0.2, -0.3), 0.6 }, 4);
+  expectPromise(localHullSurface(Mesh(), octree, &run.views, {}, execution).mesh, octree, "cut");
+  expectPromise(localHullSurface(Mesh(), octree, nullptr, {}, execution).mesh, octree, "cut, no views");
+}
+
+/** Lost = 0 is not bought by fattening: on clean silhouettes the volume stays that of exact marching cubes. */
+TEST(LocalHullSurface, DoesNotFattenCleanSolids)
+{
+  Execution execution;
+  for (const int shape : { 0, 1 })
+  {
+    const PreparedViews views = prepareViews(viewsOf(shapeOf(shape), swayingRing(14, 500), 500));
+    const Octree octree = carveViews(views, unitCube(), 7);
+    const auto exact = votingMarchingCubes(octree, views, VotingOptions(), execution);
+    const auto result = localHullSurface(exact.mesh, octree, &views, LocalHullOptions(), execution);
+    const double before = assessMesh(exact.mesh, execution).volume;
+    const double after = assessMesh(result.mesh, execution).volume;
+    EXPECT_NEAR(after / before, 1.0, 0.005) << "shape " << shape;
+    EXPECT_LE(assessMesh(result.mesh, execution).genus.value(), assessMesh(exact.mesh, execution).genus.value());
+    EXPECT_GE(assessMesh(result.mesh, execution).genus.value(), shape);
+  }
+}
+
+TEST(LocalHullSurface, SameBytesForAnyNumberOfThreadsAndAnyOrderOfViews)
+{
+  const Scene run(1, 1, 3);
+  Execution serial;
+  const auto one = localHullSurface(run.surface.mesh, run.octree, &run.views, {}, serial);
+  for (const int threads : { 2, 8 })
+  {
+    ThreadedExecution execution(threads);
+    const auto many = localHullSurface(run.surface.mesh, run.octree, &run.views, {}, execution);
+    EXPECT_EQ(one.mesh.points, many.mesh.points);
+    EXPECT_EQ(one.mesh.triangles, many.mesh.triangles);
+  }
+}
+
+TEST(LocalHullSurface, OptionsOutOfRangeAndOtherViewsAreErrors)
+{
+  const Scene run(0, 0, 0);
+  const Scene other(1, 0, 0);
+  Execution execution;
+  EXPECT_THROW(localHullSurface(run.surface.mesh, run.octree, &other.views, {}, execution), InvalidInput);
+  LocalHullOptions options;
+  options.coverOffset = 0.0;
+  EXPECT_THROW(localHullSurface(run.surface.mesh, run.octree, &run.views, options, execution), InvalidInput);
+  options = {};
+  options.bridgeGap = -1;
+  EXPECT_THROW(localHullSurface(run.surface.mesh, run.octree, &run.views, options, execution), InvalidInput);
+  CancelledExecution cancelled;
+  EXPECT_THROW(localHullSurface(run.surface.mesh, run.octree, &run.views, {}, cancelled), Cancelled);
+  EXPECT_TRUE(localHullSurface(Mesh(), Octree(), nullptr, {}, execution).mesh.triangles.empty());
+  ProgressExecution progress;
+  localHullSurface(run.surface.mesh, run.octree, &run.views, {}, progress);
+  EXPECT_TRUE(progress.Monotone);
+  EXPECT_EQ(progress.Last, 1.0);
+}

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VotingMarchingCubes.h"
+
+#include "CarvingTestCaptures.h"
+
+#include <gtest/gtest.h>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+VotingSurface surfaceOf(const PreparedViews& views, const Octree& octree, const VotingOptions& options = {})
+{
+  Execution execution;
+  return votingMarchingCubes(octree, views, options, execution);
+}
+
+double volumeOf(const Mesh& mesh)
+{
+  Execution execution;
+  return assessMesh(mesh, execution).volume;
+}
+
+/** Discs of radius `radius` in the given affine cameras: intersections of cylinders. */
+std::vector<View> discs(double radius, double scale, int size, int count)
+{
+  std::vector<View> views;
+  for (const auto& camera : axisCameras(scale, size))
+  {
+    View view{ "disc", camera, { size, size, {} } };
+    for (int i = 0; i < size * size; ++i)
+    {
+      const double u = (i % size - 0.5 * (size - 1)) / scale, v = (i / size - 0.5 * (size - 1)) / scale;
+      view.silhouette.pixels.push_back(std::hypot(u, v) < radius);
+    }
+    views.push_back(view);
+  }
+  views.resize(count);
+  return views;
+}
+
+} // namespace
+
+TEST(VotingMarchingCubes, VolumesOfTheTwoAndThreeCylinderSolidsInClosedForm)
+{
+  const double r = 0.9;
+  for (const int count : { 2, 3 })
+  {
+    const double truth = (count == 2 ? 16.0 / 3.0 : 8.0 * (2.0 - std::sqrt(2.0))) * r * r * r;
+    double error = 1.0;
+    for (int depth = 4; depth <= 7; ++depth)
+    {
+      const PreparedViews views = prepareViews(discs(r, 500.0, 1200, count));
+      const double now = std::abs(volumeOf(surfaceOf(views, carveViews(views, unitCube(1.01), depth)).mesh) / truth - 1);
+      EXPECT_LT(now, error) << count << " cylinders, depth " << depth;
+      error = now;
+    }
+    EXPECT_LT(error, 1e-3);
+  }
+}
+
+TEST(VotingMarchingCubes, TheHullOfASphereHoldsItAndComesNearItWithMoreViews)
+{
+  const double truth = 4.0 / 3.0 * std::acos(-1.0) * std::pow(0.9, 3);
+  double excess = 1.0;
+  for (const int count : { 6, 12, 48 })
+  {
+    const PreparedViews views = prepareViews(viewsOf(sphereMesh(5, 0.9), swayingRing(count, 500), 500));
+    const double now = volumeOf(surfaceOf(views, carveViews(views, unitCube(), 6)).mesh) / truth - 1.0;
+    EXPECT_GT(now, -5e-3) << "chords of the surface and facets of the sphere cut off some thousandths";
+    EXPECT_LT(now, excess);
+    excess = now;
+  }
+  EXPECT_LT(excess, 0.02);
+}
+
+TEST(VotingMarchingCubes, ConsistentIsClosedAndManifoldAtEveryShareUnderEveryNoise)
+{
+  Execution execution;
+  for (int kind = 0; kind <= 5; ++kind)
+  {
+    Random random(40 + kind);
+    auto views = viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(10, 120), 120);
+    disturb(views, kind, random);
+    const PreparedViews prepared = prepareViews(views);
+    for (int k = kind == 4 ? 3 : 0; k < 9; k += 2)
+    {
+      VotingOptions options;
+      options.share = (10.0 - k) / 10.0;
+      options.edges = k % 4 ? EdgePlacement::Middle : EdgePlacement::Exact;
+      try
+      {
+        const auto surface = surfaceOf(prepared, carveViews(prepared, unitCube(), 5, k), options);
+        const MeshSoundness s = assessMesh(surface.mesh, execution);
+        EXPECT_EQ(s.openEdges, 0u) << "noise " << kind << " votes " << k;
+        EXPECT_EQ(s.nonManifoldEdges + s.nonManifoldVertices + s.inconsistentEdges, 0u);
+        EXPECT_GE(s.volume, 0.0);
+      }
+      catch (const NothingSurvives&)
+      {
+        EXPECT_LE(k, 3);
+      }
+    }
+  }
+}
+
+TEST(VotingMarchingCubes, FaithfulOpensWhereTheShareFalls)
+{
+  Execution execution;
+  auto views = viewsOf(sphereMesh(4, 0.9), swayingRing(20, 160), 160);
+  Random random(3);
+  disturb(views, 2, random);
+  const PreparedViews prepared = prepareViews(views);
+  const Octree octree = carveViews(prepared, unitCube(), 6);
+  std::uint64_t faces = ~std::uint64_t(0), lost = 0;
+  for (const double share : { 1.0, 0.9, 0.8, 0.7 })
+  {
+    VotingOptions options;
+    options.share = share;
+    options.mode = VotingMode::Faithful;
+    options.edges = EdgePlacement::Middle;
+    const auto surface = surfaceOf(prepared, octree, options);
+    const MeshSoundness s = assessMesh(surface.mesh, execution);
+    EXPECT_EQ(s.openEdges == 0, share == 1.0);
+    EXPECT_LT(s.triangles, faces);
+    EXPECT_GE(surface.lostNoCorner + surface.lostAllCorners, lost);
+    EXPECT_EQ(surface.intersectionOctants, octree.count(OctantState::Intersection, 6));
+    faces = s.triangles;
+    lost = surface.lostNoCorner + surface.lostAllCorners;
+  }
+}
+
+TEST(VotingMarchingCubes, TreesSurfacedApartAddUpToTheWhole)
+{
+  const PreparedViews prepared = prepareViews(viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(10, 120), 120));
+  const LatticeViews latticeViews(prepared, { unitCube(), 5 });
+  Execution execution;
+  const auto whole = surfaceOf(prepared, carve(latticeViews, CarveOptions(), execution));
+  std::vector<std::array<std::array<double, 3>, 3>> expected, found;
+  const auto append = [](const Mesh& mesh, auto& triangles)
+  {
+    for (const auto& t : mesh.triangles)
+    {
+      std::array<std::array<double, 3>, 3> corners;
+      for (int c = 0; c < 3; ++c)
+      {
+        corners[c] = { mesh.points[t[c]].x(), mesh.points[t[c]].y(), mesh.points[t[c]].z() };
+      }
+      triangles.push_back(corners);
+    }
+  };
+  append(whole.mesh, expected);
+  for (std::uint64_t part = 0; part < 8; ++part)
+  {
+    CarveOptions options;
+    for (std::uint64_t tree = part * 64; tree < (part + 1) * 64; ++tree)
+    {
+      options.trees.push_back(tree);
+    }
+    append(surfaceOf(prepared, carve(latticeViews, options, execution)).mesh, found);
+  }
+  std::sort(expected.begin(), expected.end());
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(expected, found);
+}
+
+TEST(VotingMarchingCubes, SameBytesForAnyNumberOfThreads)
+{
+  const PreparedViews prepared = prepareViews(viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(10, 120), 120));
+  const Octree octree = carveViews(prepared, unitCube(), 6);
+  const auto one = surfaceOf(prepared, octree);
+  for (const int threads : { 2, 8 })
+  {
+    ThreadedExecution execution(threads);
+    const auto many = votingMarchingCubes(octree, prepared, VotingOptions(), execution);
+    EXPECT_EQ(one.mesh.points, many.mesh.points);
+    EXPECT_EQ(one.mesh.triangles, many.mesh.triangles);
+    EXPECT_EQ(one.insideVotes, many.insideVotes);
+  }
+}
+
+TEST(VotingMarchingCubes, ShareAndVotesAndViewsHaveToFit)
+{
+  EXPECT_EQ(requiredInsideVotes(1.0, 36), 36);
+  EXPECT_EQ(requiredInsideVotes(0.9, 10), 9);
+  EXPECT_EQ(requiredInsideVotes(0.91, 10), 10);
+  EXPECT_EQ(requiredInsideVotes(1e-9, 10), 1);
+  EXPECT_THROW(requiredInsideVotes(0.0, 10), InvalidInput);
+  EXPECT_THROW(requiredInsideVotes(1.01, 10), InvalidInput);
+  EXPECT_THROW(requiredInsideVotes(std::nan(""), 10), InvalidInput);
+  const PreparedViews prepared = prepareViews(viewsOf(sphereMesh(3, 0.9), swayingRing(10, 96), 96));
+  const Octree octree = carveViews(prepared, unitCube(), 4);
+  VotingOptions options;
+  options.share = 0.8;
+  try
+  {
+    surfaceOf(prepared, octree, options);
+    FAIL();
+  }
+  catch (const InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("allows 0 background votes"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("needs exactly 2"), std::string::npos);
+  }
+  const PreparedViews others = prepareViews(viewsOf(sphereMesh(3, 0.8), swayingRing(10, 96), 96));
+  EXPECT_THROW(surfaceOf(others, octree), InvalidInput);
+  CancelledExecution cancelled;
+  EXPECT_THROW(votingMarchingCubes(octree, prepared, VotingOptions(), cancelled), Cancelled);
+}
+
+TEST(VotingMarchingCubes, AnObjectCutByTheCubeStaysClosed)
+{
+  Execution execution;
+  const PreparedViews prepared = prepareViews(viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(10, 120), 120));
+  const auto surface = surfaceOf(prepared, carveViews(prepared, { Vector3(-0.3, 0.2, -0.3), 0.6 }, 5));
+  EXPECT_TRUE(assessMesh(surface.mesh, execution).sound());
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Reconstruct.h"
+
+#include "Arguments.h"
+#include "ExitCodes.h"
+#include "MeshFiles.h"
+#include "Reconstruction.h"
+
+#include <limits>
+#include <set>
+
+namespace silhouette::program
+{
+namespace
+{
+
+const char* const Description =
+  "From calibrated photographs, or their silhouettes, to a closed mesh.\n\n"
+  "The silhouettes carve an octree out of the space that all cameras see; marching cubes and local hulls make a mesh "
+  "of\nwhat survives. The default surface is closed, oriented outwards, manifold and free of self-intersections, "
+  "whatever\nthe silhouettes.";
+
+std::string footer()
+{
+  return std::string("Colours are on a scale of 0 to 1, lengths in the unit of the cameras. Without any of the options "
+                     "that tell\nbackground from object, masks, two-valued images or an alpha channel are the "
+                     "silhouettes.\n\n"
+                     "Examples:\n"
+                     "  vtksilhouette reconstruct jug -o jug.ply\n"
+                     "  vtksilhouette reconstruct photos -o toy.ply --key blue:0.08 --opening 1 --largest-region \\\n"
+                     "    --fill-holes 60 --metrics toy.json --image toy.png\n\n") +
+    ExitCodesHelp;
+}
+
+} // namespace
+
+Reconstruct::Reconstruct(CLI::App& program)
+{
+  this->App = addCommand(program, "reconstruct", Description);
+  this->App
+    ->add_option("CAPTURE", this->Options.capture, "A folder with images/ or masks/ and projections.txt (image name and "
+                                                   "the 12 numbers of the 3 x 4 matrix, a line a view) or a "
+                                                   "Middlebury *_par.txt; or one of these files")
+    ->required();
+  this->addOutputs();
+  this->addOctree();
+  this->addSurface();
+  this->Options.silhouettes.addTo(*this->App);
+  this->addRest();
+  this->App->footer(footer());
+}
+
+void Reconstruct::addOutputs()
+{
+  const char* const group = "Output";
+  this->App->add_option("-o,--output", this->Options.mesh, "The mesh: .vtp and .obj keep double precision, .ply and "
+                                                           ".stl single precision")
+    ->type_name("FILE")
+    ->required()
+    ->group(group);
+  this->App
+    ->add_option("--metrics", this->Options.metrics, "Counts, qualities and costs of this run, one JSON object")
+    ->type_name("FILE.json")
+    ->group(group);
+  this->App->add_option("--image", this->Options.image, "A rendered preview of the mesh")
+    ->type_name("FILE.png")
+    ->group(group);
+  this->App->add_option("--octree", this->Options.octree, "The octree, as VTK's HyperTreeGrid (ParaView opens it)")
+    ->type_name("FILE.htg")
+    ->group(group);
+}
+
+void Reconstruct::addOctree()
+{
+  const char* const group = "Octree";
+  CLI::Option* depth = this->App->add_option("--depth", this->Options.depth,
+    "Subdivisions of the root cube, 1 to 16 (default: 8). One more is twice as fine and costs about four times as much");
+  depth->type_name("N")->check(inRange(1, 16, true))->group(group);
+  this->App
+    ->add_option("--leaf-edge", this->Options.leafEdge, "Instead of the depth: subdivide until octants have at most "
+                                                        "this edge. Larger is coarser")
+    ->type_name("LENGTH")
+    ->check(aboveZero(std::numeric_limits<double>::max()))
+    ->excludes(depth)
+    ->group(group);
+  this->App
+    ->add_option("--bounds", this->Options.boundsText, "A box that holds the object (default: found from silhouettes "
+                                                       "and cameras)")
+    ->type_name("X0,X1,Y0,Y1,Z0,Z1")
+    ->group(group);
+  this->App
+    ->add_option("--outside", this->Options.outside, "What a view says of points outside its image: border, nothing "
+                                                     "beyond a side that the silhouette touches, else background; "
+                                                     "unknown, nothing; background")
+    ->type_name("POLICY")
+    ->check(CLI::IsMember({ "border", "unknown", "background" }))
+    ->capture_default_str()
+    ->group(group);
+}
+
+void Reconstruct::addSurface()
+{
+  const char* const group = "Surface";
+  this->App
+    ->add_option("--surface", this->Options.surface, "local-hull, closed and clean whatever the silhouettes; voting, "
+                                                     "marching cubes with a vote of the views at each corner; "
+                                                     "marching-cubes, the same with all views needed")
+    ->type_name("KIND")
+    ->check(CLI::IsMember({ "local-hull", "voting", "marching-cubes" }))
+    ->capture_default_str()
+    ->group(group);
+  this->App
+    ->add_option("--vote-share", this->Options.voteShare, "Share of the views that must call a point inside, above 0 "
+                                                          "to 1 (default: what --background-votes leaves, else 1). "
+                                                          "Smaller forgives more wrong silhouettes")
+    ->type_name("X")
+    ->check(aboveZero(1.0))
+    ->group(group);
+  this->App
+    ->add_option("--background-votes", this->Options.backgroundVotes, "Views that may call an octant background "
+                                                                      "without its being carved (default: what "
+                                                                      "--vote-share leaves, else 0)")
+    ->type_name("K")
+    ->check(inRange(0, 65534, true))
+    ->group(group);
+  this->App
+    ->add_option("--votes", this->Options.votes, "consistent, the octree allows the background votes that the share "
+                                                 "leaves, and the surface is closed; faithful, the strict octree at "
+                                                 "any share, as published: marching cubes then has holes")
+    ->type_name("MODE")
+    ->check(CLI::IsMember({ "consistent", "faithful" }))
+    ->capture_default_str()
+    ->group(group);
+  this->App
+    ->add_option("--edges", this->Options.edges, "Where marching cubes puts a vertex on its edge: exact, where the "
+                                                 "votes fail; middle")
+    ->type_name("PLACE")
+    ->check(CLI::IsMember({ "exact", "middle" }))
+    ->capture_default_str()
+    ->group(group);
+  this->App
+    ->add_flag("--largest", this->Options.largest, "Keep the component of the largest area only; octants given up with "
+                                                   "the others are counted in the metrics, dropped_octants")
+    ->group(group);
+}
+
+void Reconstruct::addRest()
+{
+  const char* const group = "Run";
+  this->App
+    ->add_option("--truth", this->Options.truth, "A mesh to measure the distance to: .vtp, .ply, .stl or .obj")
+    ->type_name("MESH")
+    ->group(group);
+  this->App
+    ->add_option("--threads", this->Options.threads, "Threads to use (default: 0, all processors); the result is the "
+                                                     "same for any number")
+    ->type_name("N")
+    ->check(inRange(0, 4096, true))
+    ->group(group);
+  this->App->add_flag("-q,--quiet", this->Options.quiet, "No progress bar and no summary")->group(group);
+}
+
+void Reconstruct::finish()
+{
+  ReconstructOptions& options = this->Options;
+  options.silhouettes.finish();
+  if (!isMeshFile(options.mesh))
+  {
+    throw CLI::ValidationError("--output", "'" + options.mesh + "' has the extension of no mesh; " + MeshFormats +
+        " are written");
+  }
+  if (!options.boundsText.empty())
+  {
+    const std::string expected = "six numbers x0,x1,y0,y1,z0,z1, the smaller of each pair first";
+    const std::vector<double> box = parseNumbers("--bounds", options.boundsText, 6, expected);
+    if (!(box[0] < box[1] && box[2] < box[3] && box[4] < box[5]))
+    {
+      throw CLI::ValidationError("--bounds", "expected " + expected + "; got '" + options.boundsText + "'");
+    }
+    options.bounds = { box[0], box[1], box[2], box[3], box[4], box[5] };
+  }
+  if (options.surface == "marching-cubes" &&
+    (options.voteShare.value_or(1.0) < 1.0 || options.backgroundVotes.value_or(0) > 0))
+  {
+    throw CLI::ValidationError("--surface", "marching-cubes needs all views; with a vote share or background votes "
+                                            "it is --surface voting");
+  }
+  std::set<std::string> files;
+  for (const std::string& file : { options.mesh, options.metrics, options.image, options.octree })
+  {
+    if (!file.empty() && !files.insert(file).second)
+    {
+      throw CLI::ValidationError("--output", "two outputs have the name '" + file + "'");
+    }
+  }
+}
+
+void Reconstruct::run()
+{
+  Reconstruction(this->Options).run();
+}
+
+} // namespace silhouette::program

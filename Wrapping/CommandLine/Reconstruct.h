@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * `vtksilhouette reconstruct`: from a capture to a mesh.
+ */
+#pragma once
+
+#include "CaptureOptions.h"
+#include "Commands.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace silhouette::program
+{
+
+struct ReconstructOptions
+{
+  std::string capture;
+  CaptureOptions silhouettes;
+  std::string mesh;
+  std::optional<int> depth;
+  std::optional<double> leafEdge;
+  std::string boundsText;
+  std::optional<std::array<double, 6>> bounds;
+  std::string outside = "border";
+  std::string surface = "local-hull";
+  std::optional<double> voteShare;
+  std::optional<int> backgroundVotes;
+  std::string votes = "consistent";
+  std::string edges = "exact";
+  bool largest = false;
+  std::string truth;
+  std::string metrics;
+  std::string image;
+  std::string octree;
+  int threads = 0;
+  bool quiet = false;
+};
+
+class Reconstruct : public Command
+{
+public:
+  explicit Reconstruct(CLI::App& program);
+  void finish() override;
+  void run() override;
+
+private:
+  void addOutputs();
+  void addOctree();
+  void addSurface();
+  void addRest();
+
+  ReconstructOptions Options;
+};
+
+} // namespace silhouette::program

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Reconstruction.h"
+
+#include "Arguments.h"
+#include "Components.h"
+#include "MeshFiles.h"
+#include "OutputFiles.h"
+#include "Preview.h"
+#include "Reconstruct.h"
+
+#include "vtkHyperTreeGrid.h"
+#include "vtkLocalHullSurfacer.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+#include "vtkSMPTools.h"
+#include "vtkSilhouetteCaptureReader.h"
+#include "vtkSilhouetteEvaluator.h"
+#include "vtkSilhouetteExtractor.h"
+#include "vtkSilhouetteOctreeSource.h"
+#include "vtkTable.h"
+#include "vtkVotingMarchingCubes.h"
+#include "vtkXMLHyperTreeGridWriter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace silhouette::program
+{
+
+Reconstruction::Reconstruction(const ReconstructOptions& options)
+  : Options(options)
+  , Run(options.quiet)
+{
+}
+
+Reconstruction::~Reconstruction() = default;
+
+void Reconstruction::run()
+{
+  if (this->Options.threads > 0)
+  {
+    vtkSMPTools::Initialize(this->Options.threads);
+  }
+  this->checkOutputs();
+  if (!this->Options.truth.empty())
+  {
+    this->Run.run("read", "reading the truth", [this] { this->Truth = readMesh(this->Options.truth); });
+  }
+  this->connect();
+  this->readCapture();
+  this->setVotes();
+  this->carve();
+  this->makeSurface();
+
+  StagedFile file(this->Options.mesh);
+  const vtkSmartPointer<vtkPolyData> stored = this->store(this->Kept, file);
+  this->evaluate(stored);
+  file.commit();
+  this->writeOctree();
+  this->writeImage(stored);
+  this->gatherMetrics(stored);
+  if (!this->Options.metrics.empty())
+  {
+    writeMetrics(this->Found, this->Options.metrics);
+  }
+  if (!this->Options.quiet)
+  {
+    this->summarise();
+  }
+}
+
+void Reconstruction::checkOutputs() const
+{
+  for (const std::string& file :
+    { this->Options.mesh, this->Options.metrics, this->Options.image, this->Options.octree })
+  {
+    if (!file.empty())
+    {
+      checkWritable(file);
+    }
+  }
+  if (!this->Options.image.empty())
+  {
+    checkPreview();
+  }
+}
+
+void Reconstruction::connect()
+{
+  this->Extractor->SetInputConnection(this->Reader->GetOutputPort());
+  this->Octree->SetInputConnection(this->Extractor->GetOutputPort());
+  this->Cubes->SetInputConnection(this->Octree->GetOutputPort(0));
+  this->Cubes->SetViewsConnection(this->Octree->GetOutputPort(1));
+  this->Hulls->SetInputConnection(this->Cubes->GetOutputPort());
+  this->Hulls->SetOctreeConnection(this->Octree->GetOutputPort(0));
+  this->Hulls->SetViewsConnection(this->Octree->GetOutputPort(1));
+  this->Evaluator->SetViewsConnection(this->Extractor->GetOutputPort());
+  this->Evaluator->SetOctreeConnection(this->Octree->GetOutputPort(0));
+
+  // The promises are kept for the coordinates that the file will hold.
+  const int precision =
+    keepsSinglePrecision(this->Options.mesh) ? vtkAlgorithm::SINGLE_PRECISION : vtkAlgorithm::DOUBLE_PRECISION;
+  this->Hulls->SetOutputPointsPrecision(precision);
+  if (this->Options.surface != "local-hull")
+  {
+    this->Cubes->SetOutputPointsPrecision(precision);
+  }
+}
+
+void Reconstruction::readCapture()
+{
+  this->Options.silhouettes.configure(this->Options.capture, this->Reader);
+  this->Options.silhouettes.configure(this->Extractor);
+  this->Run.run(this->Reader, "read", "reading the capture", FileFailed);
+  this->Run.run(this->Extractor, "silhouettes", "finding the silhouettes");
+}
+
+void Reconstruction::setVotes()
+{
+  const bool consistent = this->Options.votes == "consistent";
+  const int views = static_cast<int>(this->Extractor->GetOutput()->GetNumberOfPartitionedDataSets());
+  int background = this->Options.backgroundVotes.value_or(0);
+  if (this->Options.voteShare)
+  {
+    this->Share = *this->Options.voteShare;
+    if (consistent && !this->Options.backgroundVotes)
+    {
+      const int needed = static_cast<int>(std::ceil(this->Share * views - 1e-9));
+      background = views - std::max(1, needed);
+    }
+  }
+  else if (consistent && background > 0 && background < views)
+  {
+    this->Share = double(views - background) / views;
+  }
+  this->Octree->SetBackgroundVotes(background);
+  this->Cubes->SetShare(this->Share);
+  this->Cubes->SetMode(consistent ? vtkVotingMarchingCubes::CONSISTENT : vtkVotingMarchingCubes::FAITHFUL);
+  this->Cubes->SetEdgePlacement(
+    this->Options.edges == "exact" ? vtkVotingMarchingCubes::EXACT : vtkVotingMarchingCubes::MIDDLE);
+}
+
+void Reconstruction::carve()
+{
+  if (this->Options.depth)
+  {
+    this->Octree->SetDepth(*this->Options.depth);
+  }
+  if (this->Options.leafEdge)
+  {
+    this->Octree->SetLeafEdge(*this->Options.leafEdge);
+  }
+  if (this->Options.bounds)
+  {
+    this->Octree->AutomaticBoundsOff();
+    this->Octree->SetBounds(this->Options.bounds->data());
+  }
+  this->Octree->SetOutsidePolicy(indexOf(this->Options.outside, { "border", "unknown", "background" }));
+  this->Run.run(this->Octree, "carve", "carving the octree");
+}
+
+void Reconstruction::makeSurface()
+{
+  this->Run.run(this->Cubes, "marching_cubes", "marching cubes");
+  this->Surface = this->Cubes->GetOutput();
+  if (this->Options.surface == "local-hull")
+  {
+    this->Run.run(this->Hulls, "local_hulls", "local hulls");
+    this->Surface = this->Hulls->GetOutput();
+  }
+  if (this->Surface->GetNumberOfPolys() == 0)
+  {
+    throw ProgramError(ProcessingFailed,
+      "the surface is empty: no octant holds a corner that enough views call inside; --surface local-hull keeps thin "
+      "parts, a larger --depth or a smaller --vote-share may help");
+  }
+  this->Kept = this->Surface;
+  if (this->Options.largest)
+  {
+    this->Run.run("largest", "the largest component", [this] { this->Kept = largestComponent(this->Surface); });
+  }
+}
+
+vtkSmartPointer<vtkPolyData> Reconstruction::store(vtkPolyData* mesh, const StagedFile& file)
+{
+  // What is judged is what was stored: read again, which also finds files that were cut short.
+  vtkSmartPointer<vtkPolyData> stored;
+  this->Run.run("write", "writing the mesh",
+    [&]
+    {
+      vtkNew<vtkPolyData> bare; // no formats' extras, nor field data
+      bare->SetPoints(mesh->GetPoints());
+      bare->SetPolys(mesh->GetPolys());
+      writeMesh(bare, file.path());
+      stored = readMesh(file.path());
+    });
+  if (stored->GetNumberOfPolys() != mesh->GetNumberOfPolys())
+  {
+    throw ProgramError(FileFailed, "cannot write mesh " + file.target().string() + ": it reads as " +
+        std::to_string(stored->GetNumberOfPolys()) + " triangles of " + std::to_string(mesh->GetNumberOfPolys()));
+  }
+  return stored;
+}
+
+void Reconstruction::evaluate(vtkPolyData* stored)
+{
+  std::uint64_t lost = 0;
+  const bool dropped = this->Kept->GetNumberOfPolys() < this->Surface->GetNumberOfPolys();
+  if (dropped)
+  {
+    this->Evaluator->SetInputData(this->Surface);
+    this->Run.run(this->Evaluator, "evaluate", "judging the whole surface");
+    lost = fieldCount(this->Evaluator->GetOutput(), "LostSurface");
+  }
+  if (this->Truth)
+  {
+    this->Evaluator->SetTruthData(this->Truth);
+  }
+  this->Evaluator->SetInputData(stored);
+  this->Run.run(this->Evaluator, "evaluate", "judging the mesh");
+  const std::uint64_t lostNow = fieldCount(this->Evaluator->GetOutput(), "LostSurface");
+  this->Found["lost_surface"] = dropped ? lost : lostNow;
+  this->DroppedOctants = dropped ? lostNow - std::min(lost, lostNow) : 0;
+}
+
+void Reconstruction::gatherMetrics(vtkPolyData* stored)
+{
+  const std::uint64_t lostSurface = this->Found["lost_surface"].get<std::uint64_t>();
+  vtkPolyData* cubes = this->Cubes->GetOutput();
+  Metrics metrics;
+  metrics["program"] = "vtksilhouette reconstruct";
+  metrics["capture"] = this->Options.capture;
+  metrics["mesh"] = this->Options.mesh;
+  metrics["surface"] = this->Options.surface;
+  metrics["votes"] = this->Options.votes;
+  metrics["vote_share"] = this->Share;
+  metrics["edges"] = this->Options.edges;
+  addOctree(metrics, this->Octree->GetOutput(), this->Octree->GetViewsOutput());
+  metrics["lost_no_corner"] = fieldCount(cubes, "LostNoCorner");
+  metrics["lost_all_corners"] = fieldCount(cubes, "LostAllCorners");
+  metrics["lost_surface"] = lostSurface;
+  metrics["dropped_octants"] = this->DroppedOctants;
+  metrics["cavities_filled"] = fieldCount(this->Surface, "CavitiesFilled");
+  metrics["marching_cubes_points"] = cubes->GetNumberOfPoints();
+  metrics["marching_cubes_triangles"] = cubes->GetNumberOfPolys();
+  metrics["marching_cubes_components"] = countComponents(cubes);
+  if (this->Options.surface == "local-hull")
+  {
+    metrics["survivors"] = fieldCount(this->Surface, "Survivors");
+    metrics["covered_octants"] = fieldCount(this->Surface, "CoveredOctants");
+  }
+  addMesh(metrics, this->Evaluator->GetOutput());
+  double bounds[6];
+  stored->GetBounds(bounds);
+  metrics["bounds"] = bounds;
+  addAgreement(metrics, this->Evaluator->GetOutput());
+  addTruth(metrics, this->Evaluator->GetOutput());
+  addCost(metrics, this->Run.seconds());
+  this->Found = metrics;
+}
+
+void Reconstruction::writeOctree()
+{
+  if (this->Options.octree.empty())
+  {
+    return;
+  }
+  StagedFile file(this->Options.octree);
+  vtkNew<vtkXMLHyperTreeGridWriter> writer;
+  writer->SetInputData(this->Octree->GetOutput());
+  writer->SetFileName(file.path().c_str());
+  writer->SetDataModeToBinary(); // appended data are not read again
+  this->Run.run(writer, "write", "writing the octree", FileFailed);
+  if (writer->GetErrorCode() != 0)
+  {
+    throw ProgramError(FileFailed, "cannot write octree " + this->Options.octree + "; is the disk full?");
+  }
+  file.commit();
+}
+
+void Reconstruction::writeImage(vtkPolyData* stored)
+{
+  if (this->Options.image.empty())
+  {
+    return;
+  }
+  StagedFile file(this->Options.image);
+  this->Run.run("image", "rendering the preview",
+    [&] { renderPreview(stored, this->Extractor->GetOutput(), file.path()); });
+  file.commit();
+}
+
+void Reconstruction::summarise() const
+{
+  std::string text = "wrote        " + this->Options.mesh;
+  for (const std::string& file : { this->Options.metrics, this->Options.image, this->Options.octree })
+  {
+    text += file.empty() ? "" : ", " + file;
+  }
+  char octree[200];
+  std::snprintf(octree, sizeof octree,
+    "\noctree       depth %d, leaf edge %.4g; %llu inside, %llu on the surface; %llu lost by the mesh\n",
+    this->Found["depth"].get<int>(), this->Found["leaf_edge"].get<double>(),
+    this->Found["inside"].get<unsigned long long>(), this->Found["intersection"].get<unsigned long long>(),
+    this->Found["lost_surface"].get<unsigned long long>());
+  text += octree + describeMesh(this->Found) + describeAgreement(this->Found) + describeTruth(this->Found) +
+    describeCost(this->Found);
+  std::fputs(text.c_str(), stdout);
+}
+
+} // namespace silhouette::program

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The pipeline of `vtksilhouette reconstruct`, run stage by stage.
+ */
+#pragma once
+
+#include "Metrics.h"
+#include "Stages.h"
+
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+class vtkLocalHullSurfacer;
+class vtkPolyData;
+class vtkSilhouetteCaptureReader;
+class vtkSilhouetteEvaluator;
+class vtkSilhouetteExtractor;
+class vtkSilhouetteOctreeSource;
+class vtkVotingMarchingCubes;
+
+namespace silhouette::program
+{
+
+struct ReconstructOptions;
+class StagedFile;
+
+class Reconstruction
+{
+public:
+  explicit Reconstruction(const ReconstructOptions& options);
+  ~Reconstruction();
+  Reconstruction(const Reconstruction&) = delete;
+  Reconstruction& operator=(const Reconstruction&) = delete;
+
+  /** Throws ProgramError or Interrupted; files that are finished by then stay, and are whole. */
+  void run();
+
+private:
+  void checkOutputs() const;
+  void readCapture();
+  void connect();
+  void setVotes();
+  void carve();
+  void makeSurface();
+  /** The mesh as the staged file has it. */
+  vtkSmartPointer<vtkPolyData> store(vtkPolyData* mesh, const StagedFile& file);
+  void evaluate(vtkPolyData* stored);
+  void gatherMetrics(vtkPolyData* stored);
+  void writeOctree();
+  void writeImage(vtkPolyData* stored);
+  void summarise() const;
+
+  const ReconstructOptions& Options;
+  Stages Run;
+  Metrics Found;
+  double Share = 1.0;
+  std::uint64_t DroppedOctants = 0;
+  vtkSmartPointer<vtkPolyData> Truth;
+  vtkSmartPointer<vtkPolyData> Surface; ///< whole
+  vtkSmartPointer<vtkPolyData> Kept;    ///< what is left of it with --largest
+  vtkNew<vtkSilhouetteCaptureReader> Reader;
+  vtkNew<vtkSilhouetteExtractor> Extractor;
+  vtkNew<vtkSilhouetteOctreeSource> Octree;
+  vtkNew<vtkVotingMarchingCubes> Cubes;
+  vtkNew<vtkLocalHullSurfacer> Hulls;
+  vtkNew<vtkSilhouetteEvaluator> Evaluator;
+};
+
+} // namespace silhouette::program
