@@ -61,16 +61,11 @@ RootCube automaticBounds(const PreparedViews& views, const AutomaticBoundsOption
 {
   constexpr int CoarseDepth = 6;
   constexpr int FineDepth = 7;
-  const auto cones = intersectViewingCones(views, options.backgroundVotes);
-  if (!cones)
-  {
-    throw NothingSurvives("nothing survives: the viewing cones of the silhouettes have no point in common. "
-                          "Check the projection matrices and the silhouettes' polarity");
-  }
+  const Box cones = intersectViewingCones(views, options.backgroundVotes);
   execution.checkpoint(0.1);
   // A 64th of the edge stays free at each side: an octant that touches the cube's border says nothing of what is beyond.
   constexpr double CoarseMargin = 1.0 / 64.0;
-  RootCube cube = cubeAround(*cones, CoarseMargin);
+  RootCube cube = cubeAround(cones, CoarseMargin);
   constexpr int Rounds = 8;
   for (int round = 0; round < Rounds; ++round)
   {

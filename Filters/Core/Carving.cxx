@@ -2,6 +2,7 @@
 #include "Carving.h"
 
 #include "OctantTest.h"
+#include "ViewingCones.h"
 
 #include <algorithm>
 #include <cmath>
@@ -258,12 +259,6 @@ bool anySurvivor(const Octree& octree)
   return octree.count(OctantState::Intersection, octree.lattice.depth) > 0;
 }
 
-std::string nameOf(const LatticeViews& views, int i)
-{
-  const auto& name = views.view(i).name;
-  return "view " + std::to_string(i) + (name.empty() ? std::string() : " (" + name + ")");
-}
-
 /** Would anything survive a coarse carve without view `left`? */
 bool survivesWithout(const LatticeViews& views, int left, int backgroundVotes)
 {
@@ -286,7 +281,7 @@ bool survivesWithout(const LatticeViews& views, int left, int backgroundVotes)
   {
     if (views.view(i).objectBox[1] < 0 && octree.backgroundVotes == 0)
     {
-      throw NothingSurvives("nothing survives the carving: the silhouette of " + nameOf(views, i) + " is empty");
+      throw NothingSurvives("nothing survives the carving: the silhouette of " + nameOfView(views.prepared(), i) + " is empty");
     }
   }
   std::string culprits;
@@ -300,14 +295,14 @@ bool survivesWithout(const LatticeViews& views, int left, int backgroundVotes)
       execution.checkpoint(1.0);
       if (survivesWithout(coarseViews, i, octree.backgroundVotes))
       {
-        culprits += (culprits.empty() ? "" : ", ") + nameOf(views, i);
+        culprits += (culprits.empty() ? "" : ", ") + nameOfView(views.prepared(), i);
       }
     }
   }
   const auto& carved = octree.statistics.carvedByView;
   const int most = int(std::max_element(carved.begin(), carved.end()) - carved.begin());
   throw NothingSurvives("nothing survives the carving: " +
-    (culprits.empty() ? "no single view is at fault; " + nameOf(views, most) + " carves most, " +
+    (culprits.empty() ? "no single view is at fault; " + nameOfView(views.prepared(), most) + " carves most, " +
           std::to_string(100.0 * carved[most]) + " % of the cube"
                       : "something would be left without " + culprits) +
     ". Check the bounds, the projection matrices and the silhouettes' polarity");

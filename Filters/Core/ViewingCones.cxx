@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace silhouette
@@ -19,7 +20,8 @@ struct Cone
   bool empty = false; ///< the silhouette is: nothing in front of the camera is within
 };
 
-Cone makeCone(const PreparedView& view)
+/** With `framed`, every side of the image bounds, whether its view abstains beyond it or not. */
+Cone makeCone(const PreparedView& view, bool framed)
 {
   Cone cone;
   const auto& P = view.projection;
@@ -30,7 +32,7 @@ Cone makeCone(const PreparedView& view)
   const double bounds[4] = { box[0] - 0.5, box[1] + 0.5, box[2] - 0.5, box[3] + 0.5 };
   for (int side = 0; side < 4 && !cone.empty; ++side)
   {
-    if (!view.open[side])
+    if (framed || !view.open[side])
     {
       const Eigen::RowVector4d plane = P.row(side / 2) - bounds[side] * P.row(2);
       cone.planes.push_back(side % 2 == 0 ? plane : -plane);
@@ -154,36 +156,96 @@ Vector2 boxCentre(const PreparedView& view)
                     : Vector2(0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]));
 }
 
-} // namespace
-
-std::optional<Box> intersectViewingCones(const PreparedViews& views, int backgroundVotes)
+/** Does the search box, doubled until the cones close in it, hold them? Empty where they do not meet. */
+struct Search
 {
-  std::vector<Cone> cones;
-  std::vector<Projection> projections;
-  std::vector<Vector2> pixels;
-  for (int i = 0; i < views.size(); ++i)
-  {
-    cones.push_back(makeCone(views[i]));
-    projections.push_back(views[i].projection);
-    pixels.push_back(boxCentre(views[i]));
-  }
-  const Vector3 centre = nearestPointToRays(projections, pixels);
-  double half = apparentSize(views, centre);
+  std::optional<Box> box;
+  bool unbounded = false;
+};
+
+Search search(const std::vector<Cone>& cones, const Vector3& centre, double half, int backgroundVotes)
+{
   constexpr int Doublings = 12;
   for (int doubling = 0; doubling <= Doublings; ++doubling, half *= 2.0)
   {
-    const Box search(centre - Vector3::Constant(half), centre + Vector3::Constant(half));
+    const Box box(centre - Vector3::Constant(half), centre + Vector3::Constant(half));
     Box found;
-    subdivide(cones, search, backgroundVotes, SearchLevels, found);
-    if (!found.isEmpty() && (found.min().array() > search.min().array()).all() &&
-      (found.max().array() < search.max().array()).all())
+    subdivide(cones, box, backgroundVotes, SearchLevels, found);
+    if (!found.isEmpty() && (found.min().array() > box.min().array()).all() &&
+      (found.max().array() < box.max().array()).all())
     {
-      return tightened(cones, found, backgroundVotes);
+      return { tightened(cones, found, backgroundVotes), false };
     }
     // Nothing near where the rays meet: a larger search finds it if it is anywhere.
     if (found.isEmpty() && doubling >= 4)
     {
-      return std::nullopt;
+      return {};
+    }
+  }
+  return { std::nullopt, true };
+}
+
+[[noreturn]] void throwEmpty(
+  const PreparedViews& views, std::vector<Cone> cones, const Vector3& centre, double half, int backgroundVotes)
+{
+  std::string culprits;
+  for (int i = 0; i < views.size() && views.size() > 2; ++i)
+  {
+    std::swap(cones[i], cones.back());
+    const Cone left = cones.back();
+    cones.pop_back();
+    const Search without = search(cones, centre, half, std::min(backgroundVotes, views.size() - 2));
+    cones.push_back(left);
+    std::swap(cones[i], cones.back());
+    if (without.box || without.unbounded)
+    {
+      culprits += (culprits.empty() ? "" : ", ") + nameOfView(views, i);
+    }
+  }
+  throw NothingSurvives("nothing survives: the viewing cones of the silhouettes have no point in common" +
+    (culprits.empty() ? std::string("; no single view is at fault")
+                      : "; something would be left without " + culprits) +
+    ". Check the projection matrices and the silhouettes' polarity");
+}
+
+} // namespace
+
+std::string nameOfView(const PreparedViews& views, int i)
+{
+  const auto& name = views[i].name;
+  return "view " + std::to_string(i) + (name.empty() ? std::string() : " (" + name + ")");
+}
+
+Box intersectViewingCones(const PreparedViews& views, int backgroundVotes)
+{
+  std::vector<Projection> projections;
+  std::vector<Vector2> pixels;
+  for (int i = 0; i < views.size(); ++i)
+  {
+    if (views[i].objectBox[1] < 0 && backgroundVotes == 0)
+    {
+      throw NothingSurvives("nothing survives: the silhouette of " + nameOfView(views, i) + " is empty");
+    }
+    projections.push_back(views[i].projection);
+    pixels.push_back(boxCentre(views[i]));
+  }
+  const Vector3 centre = nearestPointToRays(projections, pixels);
+  const double half = apparentSize(views, centre);
+  for (const bool framed : { false, true })
+  {
+    std::vector<Cone> cones;
+    for (int i = 0; i < views.size(); ++i)
+    {
+      cones.push_back(makeCone(views[i], framed));
+    }
+    const Search result = search(cones, centre, half, backgroundVotes);
+    if (result.box)
+    {
+      return *result.box;
+    }
+    if (!result.unbounded)
+    {
+      throwEmpty(views, cones, centre, half, backgroundVotes);
     }
   }
   throw UnboundedObject("automatic bounds: the viewing cones of the " + std::to_string(views.size()) +

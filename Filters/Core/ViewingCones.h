@@ -8,20 +8,25 @@
 
 #include <Eigen/Geometry>
 
-#include <optional>
+#include <string>
 
 namespace silhouette
 {
 
 using Box = Eigen::AlignedBox3d;
 
+/** How messages call a view: its number, and its name where it has one. */
+std::string nameOfView(const PreparedViews& views, int i);
+
 /**
- * The box of the points that at most `backgroundVotes` cones leave out, to within a 16th of it; empty where no
- * point is left. A side of an image beyond which its view abstains bounds nothing. With a point common to all
- * cones, that set is star-shaped, so that a search box whose border it does not touch holds all of it.
- * Throws UnboundedObject where the cones do not close within 4096 times the object's apparent size.
+ * The box of the points that at most `backgroundVotes` cones leave out, to within a 16th of it. With a point common to
+ * all cones, that set is star-shaped, so that a search box whose border it does not touch holds all of it.
+ * A side of an image beyond which its view abstains bounds nothing; where the cones do not close for that
+ * reason, the object is taken to lie within the images, whose sides then bound all.
+ * Throws NothingSurvives where no point is left (the message names the views without any one of which there
+ * would be one), UnboundedObject where the cones do not close within 4096 times the object's apparent size.
  */
-std::optional<Box> intersectViewingCones(const PreparedViews& views, int backgroundVotes);
+Box intersectViewingCones(const PreparedViews& views, int backgroundVotes);
 
 /** The point nearest, by least squares, to the rays through the given pixels; free of the matrices' scale and sign. */
 Vector3 nearestPointToRays(const std::vector<Projection>& projections, const std::vector<Vector2>& pixels);

@@ -60,6 +60,25 @@ int depthFor(double leafEdge, double edge)
   return depth;
 }
 
+/** Empty silhouettes, more than the votes forgive: the cones would not say whose fault it is. */
+void checkEmptySilhouettes(const PreparedViews& views, int backgroundVotes)
+{
+  std::vector<int> empty;
+  for (int i = 0; i < views.size(); ++i)
+  {
+    if (views[i].objectPixels(0, views[i].width, 0, views[i].height) == 0)
+    {
+      empty.push_back(i);
+    }
+  }
+  if (int(empty.size()) > backgroundVotes)
+  {
+    throw NothingSurvives("nothing survives: " + std::to_string(empty.size()) + " of " +
+                          std::to_string(views.size()) + " silhouettes are empty, the first is that of " +
+                          describeView(std::size_t(empty.front()), views[empty.front()].name));
+  }
+}
+
 bool cameraInside(const Projection& projection, const RootCube& root)
 {
   const Eigen::Matrix3d left = projection.leftCols<3>();
@@ -133,6 +152,7 @@ Lattice makeLattice(const PreparedViews& views, const LatticeSettings& settings,
                        std::to_string(views.size()) + " views are out of range: 0 to " +
                        std::to_string(views.size() - 1) + " are possible");
   }
+  checkEmptySilhouettes(views, settings.backgroundVotes);
   const bool findDepth = settings.leafEdge > 0.0;
   if (!settings.automaticBounds)
   {

@@ -53,6 +53,7 @@ void storeSurface(const silhouette::LocalHullSurface& found, const MeshOutput& o
   setField(surface, "Survivors", found.survivors);
   setField(surface, "CoveredOctants", found.coveredOctants);
   setField(surface, "CoveringCorners", found.coveringCorners);
+  setField(surface, "Bridges", found.bridges);
   setField(surface, "CavitiesFilled", found.cavitiesFilled);
   setField(surface, "IgnoredPoints", found.ignoredPoints);
   setField(surface, "MovedToMiddle", found.movedToMiddle);
@@ -90,6 +91,8 @@ vtkStandardNewMacro(vtkLocalHullSurfacer);
 vtkLocalHullSurfacer::vtkLocalHullSurfacer()
     : FillCavities(silhouette::LocalHullOptions().fillCavities),
       CoverOffset(silhouette::LocalHullOptions().coverOffset),
+      BridgeGap(silhouette::LocalHullOptions().bridgeGap),
+      HullTolerance(silhouette::LocalHullOptions().hulls.tolerance),
       SeedBlock(silhouette::LocalHullOptions().hulls.seedBlock)
 {
   this->SetNumberOfInputPorts(3);
@@ -140,6 +143,8 @@ int vtkLocalHullSurfacer::RequestData(vtkInformation* request, vtkInformationVec
     options.fillCavities = this->FillCavities;
     options.coverOffset = this->CoverOffset;
     options.singlePrecision = this->OutputPointsPrecision == SINGLE_PRECISION;
+    options.bridgeGap = this->BridgeGap;
+    options.hulls.tolerance = this->HullTolerance;
     options.hulls.seedBlock = this->SeedBlock;
     silhouette::Phase reading(execution, 0.0, 0.1);
     vtkPartitionedDataSetCollection* collection = vtkPartitionedDataSetCollection::GetData(inputs[2]);
@@ -169,6 +174,8 @@ void vtkLocalHullSurfacer::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FillCavities: " << (this->FillCavities ? "On" : "Off") << "\n";
   os << indent << "CoverOffset: " << this->CoverOffset << "\n";
+  os << indent << "BridgeGap: " << this->BridgeGap << "\n";
+  os << indent << "HullTolerance: " << this->HullTolerance << "\n";
   os << indent << "SeedBlock: " << this->SeedBlock << "\n";
   os << indent << "GenerateNormals: " << (this->GenerateNormals ? "On" : "Off") << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";

@@ -13,7 +13,7 @@
  * | input 1 | vtkHyperTreeGrid | | | first output of vtkSilhouetteOctreeSource |
  * | input 2 (optional) | vtkPartitionedDataSetCollection | | | its second output: the views; without, the same promise, less accuracy |
  * | output 0 | vtkPolyData, triangles, normals outwards | points `Normals` | float, 3 | the surface; normals where GenerateNormals is on |
- * | | | field `Survivors`, `CoveredOctants`, `CoveringCorners`, `CavitiesFilled`, `IgnoredPoints`, `MovedToMiddle` | 64-bit unsigned, 1 | octants that survived; those without an inside corner at first; corners labelled inside for their sake; cavities filled; input points that lie on no lattice edge; points moved to the middle of their edge against a self-intersection |
+ * | | | field `Survivors`, `CoveredOctants`, `CoveringCorners`, `Bridges`, `CavitiesFilled`, `IgnoredPoints`, `MovedToMiddle` | 64-bit unsigned, 1 | octants that survived; those without an inside corner at first; corners labelled inside for their sake; joints between components of the survivors; cavities filled; input points that lie on no lattice edge; points moved to the middle of their edge against a self-intersection |
  * | output 1 | vtkPolyData, triangles | cells `HullId` | int, 1 | the local hulls, each a closed convex part |
  *
  * The input surface's field data pass through: `IntersectionOctants`, `LostNoCorner`, `LostAllCorners`,
@@ -75,6 +75,24 @@ public:
 
   ///@{
   /**
+   * Survivors' components that are no further apart than this are joined; leaf octants, at least 0, default 2. Larger
+   * joins more, so that a thin part that the carving broke stays in one piece.
+   */
+  vtkSetMacro(BridgeGap, int);
+  vtkGetMacro(BridgeGap, int);
+  ///@}
+
+  ///@{
+  /**
+   * How deep an outside corner of the lattice may lie in a local hull; leaf octants, at least 0, default 0.5. Only for
+   * the second output: larger gives fewer and larger hulls, which bridge more of a concavity.
+   */
+  vtkSetMacro(HullTolerance, double);
+  vtkGetMacro(HullTolerance, double);
+  ///@}
+
+  ///@{
+  /**
    * Edge of the blocks that the hulls' seeds lie in, leaf octants, at least 1, default 4. Only for the second
    * output: larger gives fewer seeds and hulls that keep less detail, sooner.
    */
@@ -123,6 +141,8 @@ protected:
 
   bool FillCavities;
   double CoverOffset;
+  int BridgeGap;
+  double HullTolerance;
   int SeedBlock;
   bool GenerateNormals = false;
   int OutputPointsPrecision = DOUBLE_PRECISION;

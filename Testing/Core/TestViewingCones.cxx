@@ -28,18 +28,47 @@ TEST(ViewingCones, TheNearestPointToRaysIsTheirCommonPoint)
 TEST(ViewingCones, HoldTheObjectAndLittleMore)
 {
   const PreparedViews views = prepareViews(viewsOf(sphereMesh(4, 0.9), swayingRing(12, 200), 200));
-  const auto box = intersectViewingCones(views, 0);
-  ASSERT_TRUE(box.has_value());
-  EXPECT_TRUE(box->contains(Box(Vector3::Constant(-0.9), Vector3::Constant(0.9))));
-  EXPECT_LT(box->sizes().maxCoeff(), 4.0);
+  const Box box = intersectViewingCones(views, 0);
+  EXPECT_TRUE(box.contains(Box(Vector3::Constant(-0.9), Vector3::Constant(0.9))));
+  EXPECT_LT(box.sizes().maxCoeff(), 4.0);
 }
 
-TEST(ViewingCones, ConesThatDoNotMeetAreEmpty)
+TEST(ViewingCones, ConesThatDoNotMeetNameTheViewAtFault)
 {
   auto views = viewsOf(sphereMesh(4, 0.9), swayingRing(12, 200), 200);
   views[3].projection.row(0) += 1000.0 * views[3].projection.row(2);
-  EXPECT_FALSE(intersectViewingCones(prepareViews(views), 0).has_value());
-  EXPECT_TRUE(intersectViewingCones(prepareViews(views), 1).has_value());
+  try
+  {
+    intersectViewingCones(prepareViews(views), 0);
+    FAIL();
+  }
+  catch (const NothingSurvives& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("something would be left without view 3 (v3)."), std::string::npos)
+      << error.what();
+  }
+  EXPECT_FALSE(intersectViewingCones(prepareViews(views), 1).isEmpty());
+  std::fill(views[5].silhouette.pixels.begin(), views[5].silhouette.pixels.end(), std::uint8_t(0));
+  try
+  {
+    intersectViewingCones(prepareViews(views), 0);
+    FAIL();
+  }
+  catch (const NothingSurvives& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("silhouette of view 5 (v5) is empty"), std::string::npos);
+  }
+}
+
+/** Specks at every side open every side; then the images' frames bound the object. */
+TEST(ViewingCones, FramesBoundWhatAbstainsOnEverySide)
+{
+  auto views = viewsOf(sphereMesh(4, 0.9), swayingRing(12, 200), 200);
+  Random random(1);
+  disturb(views, 1, random);
+  const Box box = intersectViewingCones(prepareViews(views), 0);
+  EXPECT_TRUE(box.contains(Box(Vector3::Constant(-0.9), Vector3::Constant(0.9))));
+  EXPECT_LT(box.sizes().maxCoeff(), 8.0);
 }
 
 TEST(ViewingCones, CentroidIsTheMeanOfTheObjectsPixels)

@@ -62,7 +62,7 @@ TEST(VtkLocalHullSurfacer, KeepsItsPromise)
     vtkPolyData* surface = pipeline.surface->GetOutput();
     EXPECT_GT(field(surface, "Survivors"), 0);
     EXPECT_EQ(field(surface, "IgnoredPoints"), 0);
-    for (const char* name : {"CoveredOctants", "CoveringCorners", "CavitiesFilled", "MovedToMiddle"})
+    for (const char* name : {"CoveredOctants", "CoveringCorners", "Bridges", "CavitiesFilled", "MovedToMiddle"})
     {
       EXPECT_GE(field(surface, name), 0) << name;
     }
@@ -113,11 +113,13 @@ TEST(VtkLocalHullSurfacer, IsAProperFilter)
 {
   Pipeline pipeline;
   vtkLocalHullSurfacer* filter = pipeline.surface;
-  expectPrints(filter,
-               {"FillCavities", "CoverOffset", "SeedBlock", "GenerateNormals", "OutputPointsPrecision"});
+  expectPrints(filter, {"FillCavities", "CoverOffset", "BridgeGap", "HullTolerance", "SeedBlock",
+                        "GenerateNormals", "OutputPointsPrecision"});
   expectModifies(filter, [&] { filter->SetCoverOffset(0.2); });
   expectModifies(filter, [&] { filter->FillCavitiesOff(); });
   expectModifies(filter, [&] { filter->SetSeedBlock(2); });
+  expectModifies(filter, [&] { filter->SetBridgeGap(1); });
+  expectModifies(filter, [&] { filter->SetHullTolerance(0.25); });
   expectProgress(filter);
   expectProgress(filter, 1);
   expectAbort(filter, 0.05);
@@ -162,6 +164,12 @@ TEST(VtkLocalHullSurfacer, RefusesWhatDoesNotFit)
   pipeline.surface->SetSeedBlock(0);
   expectError(pipeline.surface, {"seed block 0"}, 1);
   pipeline.surface->SetSeedBlock(4);
+  pipeline.surface->SetHullTolerance(-1.0);
+  expectError(pipeline.surface, {"tolerance -1"}, 1);
+  pipeline.surface->SetHullTolerance(0.5);
+  pipeline.surface->SetBridgeGap(-1);
+  expectError(pipeline.surface, {"-1"});
+  pipeline.surface->SetBridgeGap(2);
   pipeline.surface->SetViewsData(ringViews(7));
   expectError(pipeline.surface, {"carved from other views"});
   pipeline.surface->SetViewsConnection(pipeline.octree->GetOutputPort(1));

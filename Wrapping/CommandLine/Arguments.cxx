@@ -68,11 +68,19 @@ std::string numberText(double value)
 HelpFormatter::HelpFormatter()
 {
   this->column_width(NameColumn);
+  this->label("SUBCOMMAND", "COMMAND");
+  this->label("Subcommands", "Commands");
+  this->label("Positionals", "What to work on");
 }
 
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const
 {
-  return option->get_type_size() != 0 && !option->get_positional() ? " " + option->get_type_name() : std::string();
+  if (option->get_type_size() == 0 || option->get_positional())
+  {
+    return {};
+  }
+  const std::string type = option->get_type_name();
+  return " " + type.substr(0, type.find(":{")); // the choices are explained in the description
 }
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const
@@ -87,6 +95,19 @@ std::string HelpFormatter::make_option_desc(const CLI::Option* option) const
     text += " (required)";
   }
   return wrapped(text);
+}
+
+std::string HelpFormatter::make_description(const CLI::App* app) const
+{
+  return app->get_description() + "\n\n";
+}
+
+std::string HelpFormatter::make_subcommand(const CLI::App* command) const
+{
+  const std::string text = command->get_description();
+  std::ostringstream line;
+  CLI::detail::format_help(line, command->get_name(), text.substr(0, text.find('\n')), NameColumn);
+  return line.str();
 }
 
 CLI::App* addCommand(CLI::App& program, const std::string& name, const std::string& description)

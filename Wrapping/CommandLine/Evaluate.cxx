@@ -17,6 +17,7 @@
 #include "vtkTable.h"
 
 #include <cstdio>
+#include <limits>
 
 namespace silhouette::program
 {
@@ -68,6 +69,13 @@ Evaluate::Evaluate(CLI::App& program)
   this->App->add_option("--truth", this->Truth, "The true mesh: .vtp, .ply, .stl or .obj")
     ->type_name("MESH")
     ->group("Run");
+  this->App
+    ->add_option("--sample-spacing", this->SampleSpacing, "Distance between the samples of the comparison with the "
+                                                          "truth (default: a 512th of the truth's longest side). Larger "
+                                                          "is faster and coarser")
+    ->type_name("LENGTH")
+    ->check(aboveZero(std::numeric_limits<double>::max()))
+    ->group("Run");
   this->App->add_option("--metrics", this->MetricsFile, "All that was found, one JSON object")
     ->type_name("FILE.json")
     ->group("Run");
@@ -102,6 +110,7 @@ void Evaluate::run()
   this->Silhouettes.configure(extractor);
   extractor->SetInputConnection(reader->GetOutputPort());
   evaluator->SetViewsConnection(extractor->GetOutputPort());
+  evaluator->SetSampleSpacing(this->SampleSpacing);
   stages.run("read", "reading the meshes",
     [&]
     {

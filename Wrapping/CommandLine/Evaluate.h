@@ -24,6 +24,7 @@ private:
   std::string Capture;
   CaptureOptions Silhouettes;
   std::string Truth;
+  double SampleSpacing = 0.0;
   std::string MetricsFile;
   int Threads = 0;
   bool Quiet = false;

@@ -57,7 +57,7 @@ void addMesh(vtkRenderer* renderer, vtkPolyData* mesh)
   vtkProperty* property = actor->GetProperty();
   property->SetColor(0.86, 0.80, 0.72);
   property->SetInterpolationToPhong();
-  property->SetAmbient(0.12);
+  property->SetAmbient(0.14);
   property->SetDiffuse(0.85);
   property->SetSpecular(0.15);
   property->SetSpecularPower(20.0);
@@ -101,8 +101,8 @@ void renderPreview(vtkPolyData* mesh, vtkPartitionedDataSetCollection* views, co
   renderer->SetBackground2(0.96, 0.96, 0.97);
   renderer->GradientBackgroundOn();
   addMesh(renderer, mesh);
-  addLight(renderer, -35.0, 40.0, 0.75);
-  addLight(renderer, 50.0, 5.0, 0.3);
+  addLight(renderer, -35.0, 40.0, 0.85);
+  addLight(renderer, 50.0, 5.0, 0.35);
   addLight(renderer, 0.0, -40.0, 0.12);
   placeCamera(renderer, view, shape);
 

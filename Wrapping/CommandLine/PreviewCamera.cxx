@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace silhouette::program
@@ -21,6 +22,7 @@ namespace
 
 constexpr double Elevation = 20.0; // degrees
 constexpr double Turn = 35.0;      // degrees off the broad side
+constexpr double RingVariation = 0.3; // of the cameras' directions along a ring's axis, relative to across
 constexpr double Elongated = 1.2;  // of two horizontal extents (standard deviations)
 
 double dot(const Direction& a, const Direction& b)
@@ -99,14 +101,55 @@ std::vector<Sight> sightsOf(vtkPartitionedDataSetCollection* views, const std::a
   return sights;
 }
 
-Direction upwards(const std::vector<Sight>& sights)
+Direction meanOf(const std::vector<Sight>& sights, Direction Sight::*member)
 {
   Direction sum = { 0.0, 0.0, 0.0 };
   for (const Sight& sight : sights)
   {
-    sum = combined(1.0, sum, 1.0, sight.up);
+    sum = combined(1.0, sum, 1.0 / double(sights.size()), sight.*member);
   }
-  return unit(sum, { 0.0, 0.0, 1.0 });
+  return sum;
+}
+
+/** The direction in which the directions towards the cameras vary least, and how much: its share of the next. */
+std::pair<Direction, double> ringAxis(const std::vector<Sight>& sights)
+{
+  const Direction mean = meanOf(sights, &Sight::back);
+  double covariance[3][3] = {}, axes[3][3], values[3];
+  double* rows[3] = { covariance[0], covariance[1], covariance[2] };
+  double* columns[3] = { axes[0], axes[1], axes[2] };
+  for (const Sight& sight : sights)
+  {
+    const Direction offset = combined(1.0, sight.back, -1.0, mean);
+    for (int i = 0; i < 9; ++i)
+    {
+      covariance[i / 3][i % 3] += offset[i / 3] * offset[i % 3];
+    }
+  }
+  vtkMath::Jacobi(rows, values, columns); // sorts: the smallest last
+  return { { axes[0][2], axes[1][2], axes[2][2] }, values[2] / std::max(values[1], 1e-12) };
+}
+
+/**
+ * Cameras on a ring stand around an upright axis, even where they were turned on their side; others see upwards
+ * what is upwards, in the mean.
+ */
+Direction upwards(const std::vector<Sight>& sights)
+{
+  if (sights.empty())
+  {
+    return { 0.0, 0.0, 1.0 };
+  }
+  const Direction up = meanOf(sights, &Sight::up);
+  const auto [axis, variation] = ringAxis(sights);
+  if (sights.size() < 4 || variation > RingVariation)
+  {
+    return unit(up, { 0.0, 0.0, 1.0 });
+  }
+  // Its upper end is where it is up in the images; where that says nothing, where the cameras are.
+  const double inImages = dot(axis, up);
+  const double side = std::abs(inImages) > 0.5 ? inImages : dot(axis, meanOf(sights, &Sight::back));
+  return combined(side < 0.0 ? -1.0 : 1.0, axis, 0.0, axis);
 }
 
 /** Horizontal direction towards the camera, of unit length. */

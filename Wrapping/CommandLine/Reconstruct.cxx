@@ -43,9 +43,9 @@ Reconstruct::Reconstruct(CLI::App& program)
                                                    "Middlebury *_par.txt; or one of these files")
     ->required();
   this->addOutputs();
+  this->Options.silhouettes.addTo(*this->App);
   this->addOctree();
   this->addSurface();
-  this->Options.silhouettes.addTo(*this->App);
   this->addRest();
   this->App->footer(footer());
 }

@@ -117,7 +117,7 @@ void Synthesize::finish()
   const std::size_t cross = this->SizeText.find_first_of("xX");
   const CLI::Validator side = inRange(1, LargestSize, true);
   const std::string width = this->SizeText.substr(0, cross);
-  const std::string height = cross == std::string::npos ? width : this->SizeText.substr(cross + 1);
+  const std::string height = cross == std::string::npos ? std::string() : this->SizeText.substr(cross + 1);
   if (!side(width).empty() || !side(height).empty())
   {
     throw CLI::ValidationError("--size", "expected width and height in pixels, 1 to 16384 each, as in 1024x768; got '" +

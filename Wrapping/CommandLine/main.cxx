@@ -42,22 +42,33 @@ int runCommand(const std::vector<std::unique_ptr<Command>>& commands)
   return Success;
 }
 
+/** What is wrong with the arguments: where no command is named, the parser's own words do not say which there are. */
+std::string describeError(const CLI::App& program, const CLI::ParseError& error, int argc, char** argv)
+{
+  if (!program.get_subcommands().empty())
+  {
+    return error.what();
+  }
+  const std::string commands = "reconstruct, synthesize and evaluate are the commands";
+  return argc < 2 ? "no command; " + commands : "'" + std::string(argv[1]) + "' is no command; " + commands;
+}
+
 /** One line, and where to find help. */
-int failArguments(const CLI::App& program, const CLI::ParseError& error)
+int failArguments(const CLI::App& program, const CLI::ParseError& error, int argc, char** argv)
 {
   if (error.get_exit_code() == Success)
   {
     return program.exit(error, std::cout, std::cerr); // --help, --version
   }
-  const std::vector<CLI::App*> called = const_cast<CLI::App&>(program).get_subcommands();
+  const std::vector<CLI::App*> called = program.get_subcommands();
   const std::string command = called.empty() ? "" : called.front()->get_name() + " ";
-  sayError(std::string(error.what()) + " (vtksilhouette " + command + "--help explains)");
+  sayError(describeError(program, error, argc, argv) + " (vtksilhouette " + command + "--help explains)");
   return WrongArguments;
 }
 
 int runProgram(int argc, char** argv)
 {
-  CLI::App program(Description);
+  CLI::App program(Description, "vtksilhouette");
   program.formatter(std::make_shared<HelpFormatter>());
   program.set_help_flag("-h,--help", "This text");
   program.set_version_flag("--version", ProgramVersion, "The program's version");
@@ -74,7 +85,7 @@ int runProgram(int argc, char** argv)
   }
   catch (const CLI::ParseError& error)
   {
-    return failArguments(program, error);
+    return failArguments(program, error, argc, argv);
   }
 }
 

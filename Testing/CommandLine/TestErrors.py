@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every error's text and exit code, and that nothing is written or overwritten by a run that fails."""
+import os
+import unittest
+
+import program
+from program import FILES, PROCESSING, ProgramTest
+
+
+class Errors(ProgramTest):
+    SHAPE = "sphere"
+
+    def fails(self, code, words, capture, *arguments):
+        """A reconstruction that fails, over an old mesh that stays."""
+        place = self.folder / "place"
+        place.mkdir(exist_ok=True)
+        mesh = place / "x.ply"
+        mesh.write_text("old")
+        self.bad(code, words, "reconstruct", capture, "-o", mesh, "--metrics", place / "x.json", "--depth", 4,
+                 *arguments)
+        self.assertEqual(mesh.read_text(), "old")
+        self.assertEqual(sorted(os.listdir(place)), ["x.ply"])
+
+    def edit_matrix(self, capture, row):
+        """Replace the first view's 12 numbers."""
+        file = capture / "projections.txt"
+        lines = file.read_text().splitlines()
+        lines[0] = lines[0].split()[0] + " " + row
+        file.write_text("\n".join(lines) + "\n")
+
+    def test_missing_capture(self):
+        self.fails(FILES, ["nowhere", "no such folder or camera file"], self.folder / "nowhere")
+        self.fails(FILES, ["empty", "projections.txt"], self.make("empty"))
+
+    def make(self, name):
+        folder = self.folder / name
+        folder.mkdir()
+        return folder
+
+    def test_unreadable_image(self):
+        capture = self.copy_of_capture()
+        (capture / "masks" / "view_003.png").write_bytes(b"\x89PNG\r\n\x1a\nnothing")
+        self.fails(FILES, ["cannot read image", "view_003.png"], capture)
+
+    def test_missing_image(self):
+        capture = self.copy_of_capture()
+        (capture / "masks" / "view_003.png").unlink()
+        (capture / "images" / "view_003.png").unlink()
+        self.fails(FILES, ["projections.txt", "view_003.png", "missing"], capture)
+
+    def test_sizes_differ(self):
+        capture = self.copy_of_capture()
+        program.write_png(capture / "masks" / "view_004.png", 64, 32, lambda x, y: 255 * (x > 9))
+        self.fails(FILES, ["masks/view_004.png", "64 x 32", "images/view_004.png", "128 x 128"], capture)
+
+    def test_photographs_without_options(self):
+        capture = self.copy_of_capture()
+        for file in (capture / "masks").iterdir():
+            file.unlink()
+        (capture / "masks").rmdir()
+        self.fails(PROCESSING, ["view_000.png", "key", "threshold"], capture)
+
+    def test_matrices(self):
+        for row, words in (("1 2 3", ["12"]), ("nan 0 0 0 0 1 0 0 0 0 1 5", ["nan"]),
+                           ("inf 0 0 0 0 1 0 0 0 0 1 5", ["inf"]), ("1 0 0 0 1 0 0 0 0 0 1 5", ["rank", "view_000.png"])):
+            with self.subTest(row):
+                capture = self.copy_of_capture()
+                self.edit_matrix(capture, row)
+                self.fails(FILES, ["projections.txt"] + words, capture)
+                for path in sorted(capture.rglob("*"), reverse=True):
+                    path.rmdir() if path.is_dir() else path.unlink()
+                capture.rmdir()
+
+    def test_nothing_survives(self):
+        capture = self.copy_of_capture()
+        program.write_png(capture / "masks" / "view_005.png", 128, 128, lambda x, y: 0)
+        box = ["--bounds", "-1,1,-1,1,-1,1"]
+        self.fails(PROCESSING, ["nothing survives", "view_005.png"], capture, *box)
+        self.fails(PROCESSING, ["nothing survives", "view_005.png"], capture)
+
+    def test_one_view_without_bounds(self):
+        self.fails(PROCESSING, ["automatic bounds", "1 view", "give the bounds"], self.capture, "--views", 0)
+
+    def test_too_many_background_votes(self):
+        self.fails(PROCESSING, ["background votes 12"], self.capture, "--background-votes", 12)
+
+    def test_selection(self):
+        self.fails(FILES, ["99"], self.capture, "--views", "99")
+
+    def test_float_too_coarse(self):
+        capture = self.copy_of_capture()
+        file = capture / "projections.txt"
+        lines = []
+        for line in file.read_text().splitlines(): # the world moved by 1e6: X = X' - 1e6
+            words = line.split()
+            p = [float(word) for word in words[1:]]
+            for row in range(3):
+                p[4 * row + 3] -= 1e6 * p[4 * row]
+            lines.append(" ".join([words[0]] + [repr(number) for number in p]))
+        file.write_text("\n".join(lines) + "\n")
+        self.fails(PROCESSING, ["single precision"], capture, "--bounds", "999999,1000001,-1,1,-1,1")
+
+    def test_unwritable_output(self):
+        for option in ("-o", "--metrics", "--octree"):
+            file = self.folder / "gone" / ("x.ply" if option == "-o" else "x")
+            place = ["-o", self.folder / "x.ply"] if option != "-o" else []
+            self.bad(FILES, ["cannot write", str(file), "no folder"], "reconstruct", self.capture, *place, option, file)
+        (self.folder / "taken.ply").mkdir()
+        self.bad(FILES, ["cannot write", "taken.ply", "folder"], "reconstruct", self.capture, "-o",
+                 self.folder / "taken.ply")
+        self.assertEqual(self.names(), ["taken.ply"])
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_no_right_to_write(self):
+        locked = self.make("locked")
+        (locked / "x.ply").write_text("old")
+        locked.chmod(0o555)
+        self.bad(FILES, ["cannot write", "locked"], "reconstruct", self.capture, "-o", locked / "x.ply")
+        self.assertEqual((locked / "x.ply").read_text(), "old")
+        locked.chmod(0o755)
+
+    def test_overwrites_whole_files_and_follows_links(self):
+        (self.folder / "real.ply").write_text("old")
+        (self.folder / "x.ply").symlink_to("real.ply")
+        self.good("reconstruct", self.capture, "-o", self.folder / "x.ply", "--depth", 4)
+        self.assertTrue((self.folder / "x.ply").is_symlink())
+        self.assertEqual((self.folder / "real.ply").read_bytes()[:3], b"ply")
+
+    def test_truth(self):
+        self.fails(FILES, ["cannot read mesh", "none.ply", "no such file"], self.capture, "--truth",
+                   self.folder / "none.ply")
+
+
+class BadMeshes(ProgramTest):
+    SHAPE = "sphere"
+
+    def evaluate_fails(self, words, name, content):
+        mesh = self.folder / name
+        mesh.write_bytes(content)
+        self.bad(FILES, ["cannot read mesh", name] + words, "evaluate", mesh, "--capture", self.capture)
+
+    def test_meshes(self):
+        self.evaluate_fails(["no face"], "empty.obj", b"")
+        self.evaluate_fails(["line 4", "'9'"], "index.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")
+        self.evaluate_fails(["line 1", "coordinates"], "short.obj", b"v 0 zero 0\n")
+        self.evaluate_fails([], "broken.ply", b"ply\nformat nonsense\n")
+        self.evaluate_fails([], "broken.vtp", b"<VTKFile")
+        self.evaluate_fails([], "broken.stl", b"solid nothing")
+        self.bad(program.ARGUMENTS, ["mesh.doc", "vtp, ply, stl or obj"], "evaluate", self.text("mesh.doc"), "--capture",
+                 self.capture)
+        self.bad(FILES, ["none.ply", "no such file"], "evaluate", self.folder / "none.ply", "--capture", self.capture)
+
+    def text(self, name):
+        (self.folder / name).write_text("text")
+        return self.folder / name
+
+    def test_mesh_to_photograph(self):
+        self.bad(FILES, ["cannot read mesh", "none.ply"], "synthesize", self.folder / "new", "--mesh",
+                 self.folder / "none.ply")
+        self.assertEqual(self.names(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the options of `reconstruct` do."""
+import unittest
+
+import program
+from program import ProgramTest
+
+SIZE = 96
+
+
+class Surfaces(ProgramTest):
+    def test_kinds(self):
+        hull = self.reconstruct()
+        cubes = self.reconstruct("--surface", "marching-cubes")
+        self.assertEqual((hull["surface"], cubes["surface"]), ("local-hull", "marching-cubes"))
+        self.assertEqual(cubes["components"], cubes["marching_cubes_components"])
+        self.assertEqual(cubes["marching_cubes_components"], hull["marching_cubes_components"])
+        self.assertEqual(cubes["open_edges"], 0)
+        self.assertEqual(hull["lost_surface"], 0)
+
+    def test_share_chooses_the_background_votes(self):
+        for surface in ("voting", "local-hull"):
+            found = self.reconstruct("--surface", surface, "--vote-share", 0.75)
+            self.assertEqual((found["vote_share"], found["background_votes"]), (0.75, 3))
+            self.assertEqual(found["open_edges"], 0)
+        found = self.reconstruct("--surface", "voting", "--background-votes", 2)
+        self.assertAlmostEqual(found["vote_share"], 10 / 12)
+        self.bad(program.PROCESSING, ["background votes"], "reconstruct", self.capture, "-o", self.folder / "x.ply",
+                 "--depth", 4, "--surface", "voting", "--vote-share", 0.75, "--background-votes", 1)
+
+    def test_faithful_votes_open_the_surface(self):
+        found = self.reconstruct("--surface", "voting", "--vote-share", 0.8, "--votes", "faithful")
+        self.assertEqual(found["background_votes"], 0)
+        self.assertGreater(found["open_edges"], 0)
+        self.assertIsNone(found["genus"])
+        self.assert_sound(self.reconstruct("--vote-share", 0.8, "--votes", "faithful"))
+
+    def test_edges(self):
+        exact = self.reconstruct("--surface", "marching-cubes")
+        middle = self.reconstruct("--surface", "marching-cubes", "--edges", "middle")
+        self.assertEqual(exact["triangles"], middle["triangles"])
+        self.assertGreater(exact["mean_iou"], middle["mean_iou"])
+
+
+class Octrees(ProgramTest):
+    SHAPE = "sphere"
+
+    def test_bounds_and_leaf_edge(self):
+        found = self.reconstruct("--bounds", "-1,1,-1,1,-0.5,0.5")
+        self.assertEqual(found["root_cube"], {"origin": [-1.0, -1.0, -1.0], "edge": 2.0})
+        self.assertEqual(found["leaf_edge"], 2.0 / 32)
+        metrics = self.folder / "m.json"
+        self.good("reconstruct", self.capture, "-o", self.folder / "x.ply", "--bounds=-1,1,-1,1,-1,1", "--leaf-edge",
+                  0.07, "--metrics", metrics)
+        self.assertIn('"depth": 5', metrics.read_text())
+
+    def test_views(self):
+        found = self.reconstruct("--views", "0-4,7", depth=4)
+        self.assertEqual((found["views"], len(found["per_view"])), (6, 6))
+        self.assertIn("view_007.png", found["carved_by_view"])
+
+    def test_outside(self):
+        for policy in ("border", "unknown", "background"):
+            self.assert_sound(self.reconstruct("--outside", policy, depth=4))
+
+    def test_warnings_name_the_view(self):
+        capture = self.copy_of_capture()
+        program.write_png(capture / "masks" / "view_002.png", 128, 128, lambda x, y: 255)
+        done = self.good("reconstruct", capture, "-o", self.folder / "x.ply", "--depth", 4)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn("vtksilhouette: warning: view 2 (view_002.png): the silhouette is all object", done.stderr)
+        done = self.good("reconstruct", self.capture, "-o", self.folder / "x.ply", "--depth", 4, "--views", "0",
+                         "--bounds", "-1,1,-1,1,-1,1")
+        self.assertIn("only view 0 (view_000.png)", done.stderr)
+
+
+class Extraction(ProgramTest):
+    """Two squares on blue: a large one with a hole and a small one; both in all views of an upright camera ring."""
+
+    SHAPE = "sphere"
+
+    def photographs(self):
+        capture = self.copy_of_capture()
+        for file in (capture / "masks").iterdir():
+            file.unlink()
+        (capture / "masks").rmdir()
+
+        def pixel(x, y):
+            if 40 <= x < 88 and 40 <= y < 88 and not (62 <= x < 66 and 62 <= y < 66):
+                return (200, 180, 160)
+            if 4 <= x < 10 and 4 <= y < 10:
+                return (200, 180, 160)
+            return (10, 10, 190)
+
+        for file in (capture / "images").iterdir():
+            program.write_png(file, 128, 128, pixel)
+        return capture
+
+    def pixels(self, *options, capture):
+        """The pixels of the first silhouette."""
+        mesh = self.folder / "tiny.obj"
+        mesh.write_text("v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n")
+        found = self.evaluate(mesh, *options, capture=capture)
+        return found["per_view"][0]["silhouette_pixels"]
+
+    def test_criteria_and_morphology(self):
+        capture = self.photographs()
+        key = ["--key", "blue:0.2"]
+        whole, hole, speck = 48 * 48, 16, 36
+        self.assertEqual(self.pixels(*key, capture=capture), whole - hole + speck)
+        self.assertEqual(self.pixels("--background", "0.04,0.04,0.745", "--tolerance", 0.05, capture=capture),
+                         whole - hole + speck)
+        self.assertEqual(self.pixels("--threshold", 0.76, capture=capture), whole - hole + speck)
+        self.assertEqual(self.pixels(*key, "--largest-region", capture=capture), whole - hole)
+        self.assertEqual(self.pixels(*key, "--fill-holes", 17, capture=capture), whole + speck)
+        self.assertEqual(self.pixels(*key, "--fill-holes", 16, capture=capture), whole - hole + speck)
+        self.assertEqual(self.pixels(*key, "--invert", capture=capture), 128 * 128 - (whole - hole + speck))
+
+    def test_morphology_runs_in_the_order_of_the_command_line(self):
+        capture = self.photographs()
+        key = ["--key", "blue:0.2", "--largest-region"]
+        dilated_first = self.pixels(*key, "--dilate", 3, "--erode", 3, capture=capture)
+        eroded_first = self.pixels(*key, "--erode", 3, "--dilate", 3, capture=capture)
+        self.assertEqual(dilated_first, self.pixels(*key, "--closing", 3, capture=capture))
+        self.assertEqual(eroded_first, self.pixels(*key, "--opening", 3, capture=capture))
+        self.assertGreater(dilated_first, eroded_first) # the hole is closed, or grows
+        thrice = self.pixels(*key, "--erode", 1, "--dilate", 4, "--erode", 3, capture=capture)
+        self.assertGreater(thrice, eroded_first)
+
+
+class Largest(ProgramTest):
+    """Two boxes in every mask of three views along the axes."""
+
+    def boxes(self):
+        capture = self.folder / "boxes"
+        (capture / "masks").mkdir(parents=True)
+        far = 1e6 # nearly parallel rays
+        rows = {"x.png": ("0 1 0", "0 0 1", "1 0 0"), "y.png": ("1 0 0", "0 0 1", "0 1 0"),
+                "z.png": ("1 0 0", "0 1 0", "0 0 1")}
+        lines = []
+        for name, axes in rows.items():
+            u, v, w = [[float(word) for word in axis.split()] for axis in axes]
+            middle, scale = 0.5 * (SIZE - 1), SIZE / 4.0
+            first = [scale * far * a + middle * b for a, b in zip(u, w)] + [middle * far]
+            second = [scale * far * a + middle * b for a, b in zip(v, w)] + [middle * far]
+            third = w + [far]
+            lines.append(" ".join([name] + [repr(number) for number in first + second + third]))
+            program.write_png(capture / "masks" / name, SIZE, SIZE,
+                              lambda x, y: 255 if 20 <= x < 50 and 20 <= y < 50 or 70 <= x < 80 and 70 <= y < 80 else 0)
+        (capture / "projections.txt").write_text("\n".join(lines) + "\n")
+        return capture
+
+    def test_dropped_octants_are_counted(self):
+        capture = self.boxes()
+        box = ["--bounds", "-2,2,-2,2,-2,2"]
+        both = self.reconstruct(*box, capture=capture)
+        self.assertEqual((both["components"], both["lost_surface"], both["dropped_octants"]), (2, 0, 0))
+        one = self.reconstruct(*box, "--largest", capture=capture)
+        self.assert_sound(one)
+        self.assertEqual((one["components"], one["lost_surface"]), (1, 0))
+        self.assertGreater(one["dropped_octants"], 0)
+        self.assertLess(one["volume"], both["volume"])
+        self.assertGreater(one["volume"], 0.9 * both["volume"])
+
+
+if __name__ == "__main__":
+    unittest.main()
