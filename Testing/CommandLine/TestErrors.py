@@ -82,7 +82,7 @@ class Errors(ProgramTest):
         self.fails(PROCESSING, ["automatic bounds", "1 view", "give the bounds"], self.capture, "--views", 0)
 
     def test_too_many_background_votes(self):
-        self.fails(PROCESSING, ["background votes 12"], self.capture, "--background-votes", 12)
+        self.fails(PROCESSING, ["12 background votes", "0 to 11"], self.capture, "--background-votes", 12)
 
     def test_selection(self):
         self.fails(FILES, ["99"], self.capture, "--views", "99")

@@ -97,8 +97,8 @@ private:
   int Viewports = 0;
 };
 
-/** Red pixels of a closed surface that are forgiven: a fin thinner than a pixel, seen edge-on. */
-constexpr int FinPixels = 5;
+/** Red pixels of a closed surface that are forgiven: at its rim, where a near and a far side share a pixel. */
+constexpr int RimPixels = 10;
 
 /** Pixels that show the inner side of a surface. */
 inline int countInnerPixels(vtkImageData* picture)

@@ -69,7 +69,6 @@ HelpFormatter::HelpFormatter()
 {
   this->column_width(NameColumn);
   this->label("SUBCOMMAND", "COMMAND");
-  this->label("Subcommands", "Commands");
   this->label("Positionals", "What to work on");
 }
 
@@ -113,6 +112,7 @@ std::string HelpFormatter::make_subcommand(const CLI::App* command) const
 CLI::App* addCommand(CLI::App& program, const std::string& name, const std::string& description)
 {
   CLI::App* command = program.add_subcommand(name, description);
+  command->group("Commands");
   command->set_help_flag("-h,--help", "This text");
   command->set_version_flag("--version", ProgramVersion, "The program's version");
   return command;

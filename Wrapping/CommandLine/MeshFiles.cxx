@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <sstream>
 
 namespace silhouette::program
 {
@@ -82,6 +83,23 @@ vtkSmartPointer<vtkPolyData> readWith(const std::filesystem::path& file)
   return reader->GetOutput();
 }
 
+/** VTK opens only files of the very extension .ply; others are handed to it as text. */
+vtkSmartPointer<vtkPolyData> readPly(const std::filesystem::path& file)
+{
+  if (file.extension() == ".ply")
+  {
+    return readWith<vtkPLYReader>(file);
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream content;
+  content << stream.rdbuf();
+  vtkNew<vtkPLYReader> reader;
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(content.str());
+  runQuietly(reader.Get(), "cannot read mesh " + file.string(), [&] { reader->Update(); });
+  return reader->GetOutput();
+}
+
 template <typename Writer>
 void writeWith(vtkPolyData* mesh, const std::filesystem::path& file, void (*setUp)(Writer*))
 {
@@ -101,7 +119,7 @@ vtkSmartPointer<vtkPolyData> readByFormat(const std::filesystem::path& file)
   }
   if (format == "ply")
   {
-    return readWith<vtkPLYReader>(file);
+    return readPly(file);
   }
   if (format == "stl")
   {

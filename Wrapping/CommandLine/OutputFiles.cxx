@@ -4,7 +4,9 @@
 #include "ExitCodes.h"
 #include "Interrupt.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -43,6 +45,15 @@ mode_t creationMask()
   const mode_t mask = umask(0);
   umask(mask);
   return mask;
+}
+
+/** In lower case: writers add what they look for in vain. */
+std::string extensionOf(const fs::path& file)
+{
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return extension;
 }
 
 /** "mesh.ply" to ".mesh-XXXXXX.ply": writers that look at the extension find the right one. */
@@ -102,7 +113,7 @@ StagedFile::StagedFile(const fs::path& target)
   : Target(behindLinks(target))
 {
   checkWritable(target);
-  const std::string extension = this->Target.extension().string();
+  const std::string extension = extensionOf(this->Target);
   std::vector<char> pattern = namePattern(this->Target, extension);
   const int file = mkstemps(pattern.data(), static_cast<int>(extension.size()));
   if (file < 0)

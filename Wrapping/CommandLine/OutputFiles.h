@@ -20,7 +20,7 @@ void checkWritable(const std::filesystem::path& file);
 class StagedFile
 {
 public:
-  /** Makes an empty file beside `target`, of the same extension. Throws ProgramError (FileFailed). */
+  /** Makes an empty file beside `target`, of the same extension in lower case. Throws ProgramError (FileFailed). */
   explicit StagedFile(const std::filesystem::path& target);
   ~StagedFile();
   StagedFile(const StagedFile&) = delete;

@@ -6,6 +6,7 @@
 #include "vtkAlgorithm.h"
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
+#include "vtkLogger.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOutputWindow.h"
@@ -134,6 +135,7 @@ void routeOutputWindow()
 {
   vtkNew<WarningWindow> window;
   vtkOutputWindow::SetInstance(window);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it repeats what the window is told
 }
 
 void Stages::run(vtkAlgorithm* filter, const std::string& key, const std::string& words, ExitCode code)
