@@ -35,10 +35,10 @@ bash "$source_dir/Testing/install-packages.sh" build
 echo "all there"
 
 step "Build: $build_dir"
-# Tests and the Python package are not needed here; a build that has them keeps them.
-options=()
+# A build tree that is there already keeps its generator and its tests.
+options=(-DCMAKE_BUILD_TYPE=Release)
 if [ ! -f "$build_dir/CMakeCache.txt" ]; then
-  options=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DSILHOUETTE_BUILD_TESTING=OFF -DSILHOUETTE_WRAP_PYTHON=OFF)
+  options+=(-G Ninja -DSILHOUETTE_BUILD_TESTING=OFF)
 fi
 cmake -S "$source_dir" -B "$build_dir" "${options[@]}"
 cmake --build "$build_dir" --parallel "$jobs" --target vtksilhouette

@@ -10,6 +10,8 @@ in its function's first line.
 import argparse
 import colorsys
 import os
+import struct
+import zlib
 
 import numpy as np
 
@@ -20,7 +22,7 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData, vtkPolyDa
 from vtkmodules.vtkFiltersCore import vtkThreshold
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersHyperTree import vtkHyperTreeGridToUnstructuredGrid
-from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkImagingColor import vtkImageQuantizeRGBToIndex
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
 
@@ -75,7 +77,7 @@ def result(algorithm, port=0):
 
 
 def cut_open(grid, keep):
-    """The octree's octants as faces of cubes, those alone whose centre `keep` (of an (n, 3) array) accepts."""
+    """The octree's octants as faces of cubes: those whose centre `keep`, given an (n, 3) array, accepts."""
     cells = vtkHyperTreeGridToUnstructuredGrid()
     cells.SetInputData(grid)
     cells.Update()
@@ -217,15 +219,25 @@ def framed(pixels, width, height):
 
 
 def write(pixels, path):
+    """A PNG of the 256 colours that suit the picture: VTK's writer knows no palettes, three times as large."""
     height, width, _ = pixels.shape
     image = vtkImageData()
     image.SetDimensions(width, height, 1)
-    image.GetPointData().SetScalars(numpy_to_vtk(pixels[::-1].reshape(-1, 3), deep=True))
-    writer = vtkPNGWriter()
-    writer.SetFileName(path)
-    writer.SetInputData(image)
-    writer.SetCompressionLevel(9)
-    writer.Write()
+    image.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, 3), deep=True))
+    quantize = vtkImageQuantizeRGBToIndex()
+    quantize.SetInputData(image)
+    quantize.SetNumberOfColors(256)
+    quantize.Update()
+    indices = vtk_to_numpy(quantize.GetOutput().GetPointData().GetScalars()).reshape(height, width)
+    table = quantize.GetLookupTable()
+    colours = [table.GetTableValue(index)[:3] for index in range(table.GetNumberOfTableValues())]
+    rows = np.hstack([np.zeros((height, 1), np.uint8), indices.astype(np.uint8)])  # 0: rows are as they are
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n")
+        for kind, data in ((b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0)),
+                           (b"PLTE", np.rint(255.0 * np.array(colours)).astype(np.uint8).tobytes()),
+                           (b"IDAT", zlib.compress(rows.tobytes(), 9)), (b"IEND", b"")):
+            file.write(struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)))
     print(f"{path}: {width} x {height}, {os.path.getsize(path) // 1024} KiB")
 
 
@@ -252,7 +264,7 @@ def octants_picture(grid, width, height, **where):
 
 def jug():
     """README's opener: photographs and silhouettes of a jug, the octree cut open, and the mesh."""
-    pipeline = Pipeline(vtkSyntheticCaptureSource.JUG, 8, 896)
+    pipeline = Pipeline(vtkSyntheticCaptureSource.JUG, 7, 896)
     mesh = result(pipeline.hulls)
     pipeline.octree.SetDepth(5)
     octree = result(pipeline.octree)
@@ -264,8 +276,8 @@ def jug():
         column = np.vstack([view_image(photographs, view, side), np.full((gap, side, 3), 255, np.uint8),
                             view_image(masks, view, side)])
         columns += [column, np.full((2 * side + gap, gap, 3), 255, np.uint8)]
-    where = {"half_height": 0.92, "centre": (0.05, 0.0, 0.0), "turn": -55.0}
-    return np.hstack([framed(np.hstack(columns[:-1]), 420, 420), octants_picture(octree, 390, 420, **where),
+    where = {"half_height": 1.06, "centre": (-0.03, 0.0, 0.0), "turn": -55.0}
+    return np.hstack([framed(np.hstack(columns[:-1]), 410, 420), octants_picture(octree, 400, 420, **where),
                       picture(actor(mesh, CLAY), 390, 420, **where)])
 
 
@@ -275,8 +287,8 @@ def octree():
     pictures = []
     for depth in (4, 5, 6):
         pipeline.octree.SetDepth(depth)
-        pictures.append(octants_picture(result(pipeline.octree), 320, 330, half_height=1.14,
-                                        centre=(0.0, 0.0, -0.08), turn=-55.0, label=f"depth {depth}"))
+        pictures.append(octants_picture(result(pipeline.octree), 320, 330, half_height=1.2,
+                                        centre=(0.0, 0.0, -0.06), turn=-55.0, label=f"depth {depth}"))
     return np.hstack(pictures)
 
 
@@ -299,7 +311,7 @@ def local_hulls():
     pipeline.hulls.SetSeedBlock(8)
     hulls = paint(result(pipeline.hulls, 1), "HullId", pastel)
     surface = result(pipeline.hulls)
-    where = {"half_height": 0.92, "turn": 75.0, "above": 35.0}
+    where = {"half_height": 0.92, "turn": 120.0, "above": -35.0}
     return np.hstack([picture(actor(hulls, flat=True), 420, 380, **where),
                       picture(actor(surface, BLUE), 420, 380, **where)])
 
@@ -314,7 +326,7 @@ def noise():
     torn = {"pixels": 640, "Blobs": 12, "Contour": 1.0}
     strict = Pipeline(vtkSyntheticCaptureSource.JUG, 7, **torn)
     forgiving = Pipeline(vtkSyntheticCaptureSource.JUG, 7, background_votes=3, **torn)
-    where = {"half_height": 0.98, "centre": (0.05, 0.0, 0.0), "turn": -55.0}
+    where = {"half_height": 1.02, "centre": (0.0, 0.0, 0.0), "turn": -55.0}
     strict.capture.Update()
     mask = view_image(strict.capture.GetOutput(), torn_view(strict.capture), 280)
     return np.hstack([framed(mask, 310, 340),

@@ -57,7 +57,8 @@ public:
 private:
   vtkRenderer* addViewport()
   {
-    const int column = this->Viewports % this->Columns, row = this->Rows - 1 - this->Viewports / this->Columns;
+    const int column = this->Viewports % this->Columns,
+              row = this->Rows - 1 - this->Viewports / this->Columns;
     ++this->Viewports;
     vtkNew<vtkRenderer> renderer;
     renderer->SetViewport(double(column) / this->Columns, double(row) / this->Rows,

@@ -262,7 +262,7 @@ TEST(FilterPictures, ABrokenSurfaceFails)
   pipeline.hulls->Update();
   vtkNew<vtkPolyData> broken;
   broken->DeepCopy(pipeline.hulls->GetOutput());
-  // Three triangles that face the camera, each on its own: a picture of the whole would hide a row of them.
+  // Three triangles that face the camera, apart from one another.
   broken->BuildLinks();
   const double towards[3] = {3.0, -6.0, 3.0};
   int removed = 0;

@@ -149,7 +149,8 @@ void writeObj(vtkPolyData* mesh, const std::filesystem::path& file)
   stream.close();
   if (!stream)
   {
-    throw ProgramError(FileFailed, "cannot write mesh " + file.string() + ": not all of it was written; is the disk full?");
+    throw ProgramError(
+      FileFailed, "cannot write mesh " + file.string() + ": not all of it was written; is the disk full?");
   }
 }
 

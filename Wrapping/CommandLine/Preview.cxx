@@ -59,7 +59,7 @@ void addMesh(vtkRenderer* renderer, vtkPolyData* mesh)
   property->SetInterpolationToPhong();
   property->SetAmbient(0.14);
   property->SetDiffuse(0.85);
-  property->SetSpecular(0.15);
+  property->SetSpecular(0.06);
   property->SetSpecularPower(20.0);
   renderer->AddActor(actor);
 }
@@ -101,9 +101,9 @@ void renderPreview(vtkPolyData* mesh, vtkPartitionedDataSetCollection* views, co
   renderer->SetBackground2(0.96, 0.96, 0.97);
   renderer->GradientBackgroundOn();
   addMesh(renderer, mesh);
-  addLight(renderer, -35.0, 40.0, 0.85);
-  addLight(renderer, 50.0, 5.0, 0.35);
-  addLight(renderer, 0.0, -40.0, 0.12);
+  addLight(renderer, -35.0, 40.0, 0.72);
+  addLight(renderer, 50.0, 5.0, 0.38);
+  addLight(renderer, 0.0, -40.0, 0.2);
   placeCamera(renderer, view, shape);
 
   vtkNew<vtkRenderWindow> window;

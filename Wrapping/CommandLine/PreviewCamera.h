@@ -25,8 +25,9 @@ struct PreviewCamera
 };
 
 /**
- * Upright as the views see it, or along the axis of the ring that they stand on; from 20 degrees above. Around the upright axis: where the object is longer than
- * deep, 35 degrees off its broad side; else 35 degrees off the first view.
+ * Upright as the views see it, or along the axis of the ring that they stand on; from 20 degrees above. Around
+ * the upright axis: where the object is longer than deep, 35 degrees off its broad side; else 35 degrees off the
+ * first view.
  */
 PreviewCamera previewCamera(vtkPolyData* mesh, vtkPartitionedDataSetCollection* views);
 
