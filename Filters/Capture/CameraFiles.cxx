@@ -4,7 +4,6 @@
 #include "Error.h"
 #include "TextParsing.h"
 
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <map>
@@ -145,22 +144,6 @@ Projection cornerToInteger(const Projection& projection)
   integer.row(0) -= 0.5 * projection.row(2);
   integer.row(1) -= 0.5 * projection.row(2);
   return integer;
-}
-
-int projectionRank(const Projection& projection)
-{
-  // Rows differ by orders of magnitude (pixels against depth), which says nothing about rank.
-  Projection rows = Projection::Zero();
-  for (int row = 0; row < 3; ++row)
-  {
-    const double largest = projection.row(row).cwiseAbs().maxCoeff();
-    if (largest > 0.0)
-    {
-      rows.row(row) = (projection.row(row) / largest).normalized();
-    }
-  }
-  const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::MatrixXd>(rows).singularValues();
-  return int((values.array() > 1e-12 * std::max(values[0], 1e-300)).count());
 }
 
 std::string formatName(CameraFormat format)

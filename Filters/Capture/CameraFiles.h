@@ -56,9 +56,6 @@ CameraFile readCameraFile(const std::filesystem::path& file);
  * family. */
 Projection cornerToInteger(const Projection& projection);
 
-/** Rank of a projection, each row taken at unit length; 3 is what a camera needs. */
-int projectionRank(const Projection& projection);
-
 /** The format in words, for people. */
 std::string formatName(CameraFormat format);
 

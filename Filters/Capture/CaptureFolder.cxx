@@ -2,6 +2,7 @@
 #include "CaptureFolder.h"
 
 #include "Error.h"
+#include "PreparedViews.h"
 #include "TextParsing.h"
 #include "ViewSelection.h"
 

@@ -47,15 +47,11 @@ void appendCellsOf(const CornerShell& shell, const CrossedEdge& edge, std::vecto
   {
     const LatticePoint o = cornerOffset(n);
     const bool alongEdge = (o.i && a.i != b.i) || (o.j && a.j != b.j) || (o.k && a.k != b.k);
-    const LatticePoint cell{ lower.i - o.i, lower.j - o.j, lower.k - o.k };
-    if (alongEdge || cell.i < 0 || cell.j < 0 || cell.k < 0)
+    const auto cell =
+      alongEdge ? std::ptrdiff_t(-1) : shell.findCell({ lower.i - o.i, lower.j - o.j, lower.k - o.k });
+    if (cell >= 0)
     {
-      continue;
-    }
-    const auto at = std::lower_bound(shell.cells.begin(), shell.cells.end(), mortonCode(cell));
-    if (at != shell.cells.end() && *at == mortonCode(cell))
-    {
-      cells.push_back(std::size_t(at - shell.cells.begin()));
+      cells.push_back(std::size_t(cell));
     }
   }
 }

@@ -36,6 +36,17 @@ std::ptrdiff_t CornerShell::find(std::uint64_t corner) const
   return at != this->corners.end() && *at == corner ? at - this->corners.begin() : -1;
 }
 
+std::ptrdiff_t CornerShell::findCell(const LatticePoint& cell) const
+{
+  if (cell.i < 0 || cell.j < 0 || cell.k < 0)
+  {
+    return -1;
+  }
+  const std::uint64_t code = mortonCode(cell);
+  const auto at = std::lower_bound(this->cells.begin(), this->cells.end(), code);
+  return at != this->cells.end() && *at == code ? at - this->cells.begin() : -1;
+}
+
 CornerShell makeCornerShell(std::vector<std::uint64_t> cells, Execution& execution)
 {
   CornerShell shell;

@@ -24,6 +24,8 @@ struct CornerShell
 
   /** Index of a corner, or -1. Cost: a binary search. */
   std::ptrdiff_t find(std::uint64_t corner) const;
+  /** Index of a cell, or -1; its coordinates may lie outside the lattice. Cost: a binary search. */
+  std::ptrdiff_t findCell(const LatticePoint& cell) const;
 };
 
 /** The shell of the given cells (ascending, no code twice). Cost: O(n log n). */

@@ -252,16 +252,10 @@ int LatticeLabels::cellsAround(const LatticePoint& p, std::array<std::uint32_t, 
   for (int n = 0; n < 8; ++n)
   {
     const LatticePoint o = cornerOffset(n);
-    const LatticePoint cell{ p.i - o.i, p.j - o.j, p.k - o.k };
-    if (!this->TheOctree->lattice.hasCell(cell))
+    const auto cell = this->Shell.findCell({ p.i - o.i, p.j - o.j, p.k - o.k });
+    if (cell >= 0 && this->Survivor[cell])
     {
-      continue;
-    }
-    const auto at = std::lower_bound(this->Shell.cells.begin(), this->Shell.cells.end(), mortonCode(cell));
-    const auto number = std::size_t(at - this->Shell.cells.begin());
-    if (at != this->Shell.cells.end() && *at == mortonCode(cell) && this->Survivor[number])
-    {
-      cells[count++] = std::uint32_t(number);
+      cells[count++] = std::uint32_t(cell);
     }
   }
   return count;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PreparedViews.h"
 
-#include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include <cstring>
 
@@ -65,22 +65,11 @@ void check(const View& view, std::size_t index)
   {
     throw InvalidInput(describe(view, index) + ": the projection matrix holds a value that is not finite");
   }
-  // Scale the rows first: they differ by the focal length in pixels.
-  Projection scaled = view.projection;
-  for (int row = 0; row < 3; ++row)
+  const int rank = projectionRank(view.projection);
+  if (rank < 3)
   {
-    const double norm = scaled.row(row).norm();
-    if (norm > 0.0)
-    {
-      scaled.row(row) /= norm;
-    }
-  }
-  Eigen::FullPivLU<Eigen::Matrix<double, 3, 4>> decomposition(scaled);
-  decomposition.setThreshold(1e-11);
-  if (decomposition.rank() < 3)
-  {
-    throw InvalidInput(describe(view, index) + ": the projection matrix has rank " +
-      std::to_string(decomposition.rank()) + ", 3 is needed");
+    throw InvalidInput(
+      describe(view, index) + ": the projection matrix has rank " + std::to_string(rank) + ", 3 is needed");
   }
 }
 
@@ -137,6 +126,22 @@ PreparedView prepare(const View& view, OutsidePolicy outside)
 }
 
 } // namespace
+
+int projectionRank(const Projection& projection)
+{
+  // Rows differ by orders of magnitude (pixels against depth), which says nothing about rank.
+  Projection rows = Projection::Zero();
+  for (int row = 0; row < 3; ++row)
+  {
+    const double largest = projection.row(row).cwiseAbs().maxCoeff();
+    if (largest > 0.0)
+    {
+      rows.row(row) = (projection.row(row) / largest).normalized();
+    }
+  }
+  const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::MatrixXd>(rows).singularValues();
+  return int((values.array() > 1e-12 * std::max(values[0], 1e-300)).count());
+}
 
 Vote PreparedView::pixelVote(int column, int row) const
 {

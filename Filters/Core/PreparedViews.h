@@ -79,6 +79,9 @@ struct PreparedView
   }
 };
 
+/** Rank of a projection, each row taken at unit length; 3 is what a camera needs. */
+int projectionRank(const Projection& projection);
+
 class PreparedViews
 {
 public:

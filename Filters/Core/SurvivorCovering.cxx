@@ -181,16 +181,10 @@ private:
     const LatticePoint p = fromMorton(this->shell().corners[corner]);
     for (int n = 0; n < 64; ++n)
     {
-      const LatticePoint cell{ p.i + n % 4 - 2, p.j + n / 4 % 4 - 2, p.k + n / 16 - 2 };
-      if (this->Labels.octree().lattice.hasCell(cell))
+      const auto cell = this->shell().findCell({ p.i + n % 4 - 2, p.j + n / 4 % 4 - 2, p.k + n / 16 - 2 });
+      if (cell >= 0 && this->Labels.isSurvivor(cell) && !this->covered(std::uint32_t(cell)))
       {
-        const auto& cells = this->shell().cells;
-        const auto at = std::lower_bound(cells.begin(), cells.end(), mortonCode(cell));
-        const auto number = std::uint32_t(at - cells.begin());
-        if (at != cells.end() && *at == mortonCode(cell) && this->Labels.isSurvivor(number) && !this->covered(number))
-        {
-          list.push_back(number);
-        }
+        list.push_back(std::uint32_t(cell));
       }
     }
   }

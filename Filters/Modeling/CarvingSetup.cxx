@@ -180,12 +180,14 @@ std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice&
   std::vector<std::string> warnings;
   std::vector<Projection> projections;
   std::vector<std::string> names;
+  constexpr int MostNamed = 8; // a line for each of hundreds of views would hide all others
+  int silhouettes = 0;
   for (int i = 0; i < views.size(); ++i)
   {
     const PreparedView& view = views[i];
     const std::string name = describeView(std::size_t(i), view.name);
     std::string warning = silhouetteWarning(view, name);
-    if (!warning.empty())
+    if (!warning.empty() && ++silhouettes <= MostNamed)
     {
       warnings.push_back(std::move(warning));
     }
@@ -196,6 +198,11 @@ std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice&
     }
     projections.push_back(view.projection);
     names.push_back(view.name);
+  }
+  if (silhouettes > MostNamed)
+  {
+    warnings.push_back("so are, cut by the border or all object, the silhouettes of " +
+                       std::to_string(silhouettes - MostNamed) + " more views");
   }
   if (views.size() == 1 && !automaticBounds)
   {

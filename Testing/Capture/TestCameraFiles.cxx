@@ -123,17 +123,3 @@ TEST(CameraFiles, CornerFamilyIsHalfAPixelAway)
   EXPECT_NEAR(difference.x(), 0.5, 1e-12);
   EXPECT_NEAR(difference.y(), 0.5, 1e-12);
 }
-
-TEST(CameraFiles, RankIgnoresTheScaleOfRows)
-{
-  Projection p;
-  p << 1e3, 0, 0, 0, 0, 1e-6, 0, 0, 0, 0, 1e9, 0;
-  EXPECT_EQ(projectionRank(p), 3);
-  EXPECT_EQ(projectionRank(1e-200 * p), 3);
-  p.row(2) = 3.0 * p.row(0) + 2e9 * p.row(1);
-  EXPECT_EQ(projectionRank(p), 2);
-  p.row(1) = 2.0 * p.row(0);
-  p.row(2).setZero();
-  EXPECT_EQ(projectionRank(p), 1);
-  EXPECT_EQ(projectionRank(Projection::Zero()), 0);
-}

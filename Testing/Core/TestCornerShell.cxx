@@ -33,6 +33,12 @@ TEST(CornerShell, SharesTheCornersOfItsCells)
       EXPECT_EQ(shell.corners[shell.cellCorners[cell][c]], mortonCode(fromMorton(shell.cells[cell]) + cornerOffset(c)));
     }
   }
+  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
+  {
+    EXPECT_EQ(shell.findCell(fromMorton(shell.cells[cell])), std::ptrdiff_t(cell));
+  }
+  EXPECT_EQ(shell.findCell({ -1, 3, 3 }), -1);
+  EXPECT_EQ(shell.findCell({ 41, 3, 3 }), -1);
   for (std::size_t c = 0; c < shell.corners.size(); ++c)
   {
     EXPECT_EQ(shell.find(shell.corners[c]), std::ptrdiff_t(c));

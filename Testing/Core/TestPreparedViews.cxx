@@ -152,3 +152,17 @@ TEST(PreparedViews, AViewAbstainsBehindItsCameraAndAPointThatNoneSeesHasNoVotes)
   EXPECT_EQ(lattice.vote(0, { 2, 8, 8 }), Vote::Object);
   EXPECT_EQ(lattice.insideVotes({ 2, 8, 8 }), 1);
 }
+
+TEST(PreparedViews, RankIgnoresTheScaleOfRows)
+{
+  Projection p;
+  p << 1e3, 0, 0, 0, 0, 1e-6, 0, 0, 0, 0, 1e9, 0;
+  EXPECT_EQ(projectionRank(p), 3);
+  EXPECT_EQ(projectionRank(1e-200 * p), 3);
+  p.row(2) = 3.0 * p.row(0) + 2e9 * p.row(1);
+  EXPECT_EQ(projectionRank(p), 2);
+  p.row(1) = 2.0 * p.row(0);
+  p.row(2).setZero();
+  EXPECT_EQ(projectionRank(p), 1);
+  EXPECT_EQ(projectionRank(Projection::Zero()), 0);
+}
