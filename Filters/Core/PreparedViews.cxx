@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PreparedViews.h"
 
-#include <Eigen/SVD>
+#include <Eigen/LU>
 
 #include <cstring>
 
@@ -139,8 +139,9 @@ int projectionRank(const Projection& projection)
       rows.row(row) = (projection.row(row) / largest).normalized();
     }
   }
-  const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::MatrixXd>(rows).singularValues();
-  return int((values.array() > 1e-12 * std::max(values[0], 1e-300)).count());
+  Eigen::FullPivLU<Eigen::Matrix<double, 3, 4>> decomposition(rows);
+  decomposition.setThreshold(1e-12);
+  return int(decomposition.rank());
 }
 
 Vote PreparedView::pixelVote(int column, int row) const
