@@ -13,7 +13,13 @@
  * | input 1 | vtkHyperTreeGrid | | | first output of vtkSilhouetteOctreeSource |
  * | input 2 (optional) | vtkPartitionedDataSetCollection | | | its second output: the views; without, the same promise, less accuracy |
  * | output 0 | vtkPolyData, triangles, normals outwards | points `Normals` | float, 3 | the surface; normals where GenerateNormals is on |
- * | | | field `Survivors`, `CoveredOctants`, `CoveringCorners`, `Bridges`, `CavitiesFilled`, `IgnoredPoints`, `MovedToMiddle` | 64-bit unsigned, 1 | octants that survived; those without an inside corner at first; corners labelled inside for their sake; joints between components of the survivors; cavities filled; input points that lie on no lattice edge; points moved to the middle of their edge against a self-intersection |
+ * | | | field `Survivors` | 64-bit unsigned, 1 | octants of the last generation that survived |
+ * | | | field `CoveredOctants` | 64-bit unsigned, 1 | of these, the ones without an inside corner at first |
+ * | | | field `CoveringCorners` | 64-bit unsigned, 1 | corners labelled inside for their sake |
+ * | | | field `Bridges` | 64-bit unsigned, 1 | joints between components of the survivors |
+ * | | | field `CavitiesFilled` | 64-bit unsigned, 1 | cavities labelled inside |
+ * | | | field `IgnoredPoints` | 64-bit unsigned, 1 | input points that lie on no lattice edge |
+ * | | | field `MovedToMiddle` | 64-bit unsigned, 1 | points moved to the middle of their edge against a self-intersection |
  * | output 1 | vtkPolyData, triangles | cells `HullId` | int, 1 | the local hulls, each a closed convex part |
  *
  * The input surface's field data pass through: `IntersectionOctants`, `LostNoCorner`, `LostAllCorners`,

@@ -25,7 +25,8 @@
  * | `Genus` | int | absent where the surface is open or not manifold |
  * | `Volume`, `Area` | double | in the capture's unit, cubed and squared |
  * | `Closed`, `Sound` | int, 0 or 1 | sound: closed, manifold, consistent, free of self-intersections, of positive volume |
- * | `MeshToTruthMean`, `TruthToMeshMean`, `MeshToTruthMaximum`, `TruthToMeshMaximum`, `TruthMean`, `TruthRMS`, `TruthHausdorff`, `SampleSpacing` | double | with a truth: distances in the capture's unit; `TruthMean` and `TruthRMS` are over both directions |
+ * | `MeshToTruthMean`, `TruthToMeshMean`, `MeshToTruthMaximum`, `TruthToMeshMaximum` | double | with a truth: distances in the capture's unit |
+ * | `TruthMean`, `TruthRMS`, `TruthHausdorff`, `SampleSpacing` | double | with a truth: over both directions, in the capture's unit |
  * | `LostSurface`; `LeafEdge` | 64-bit unsigned; double | with an octree: octants of the last generation that survived and that the surface neither crosses nor encloses; their edge |
  *
  * Steps: exact predicates for the self-intersections; a pixel of the rendered surface is object where its

@@ -16,9 +16,9 @@ struct Scene
   explicit Scene(int noise)
   {
     Random random(77);
-    auto views = viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(10, 120), 120);
-    disturb(views, noise, random);
-    this->views = prepareViews(views);
+    auto captured = viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(10, 120), 120);
+    disturb(captured, noise, random);
+    this->views = prepareViews(captured);
     this->octree = carveViews(this->views, unitCube(), 5);
     this->surface = votingMarchingCubes(this->octree, this->views, VotingOptions(), this->execution);
     this->shell = makeCornerShell(leafCells(this->octree, OctantState::Intersection), this->execution);
