@@ -2,7 +2,6 @@
 #include "Carving.h"
 
 #include "OctantTest.h"
-#include "ViewingCones.h"
 
 #include <algorithm>
 #include <cmath>
@@ -281,7 +280,7 @@ bool survivesWithout(const LatticeViews& views, int left, int backgroundVotes)
   {
     if (views.view(i).objectBox[1] < 0 && octree.backgroundVotes == 0)
     {
-      throw NothingSurvives("nothing survives the carving: the silhouette of " + nameOfView(views.prepared(), i) + " is empty");
+      throw NothingSurvives("nothing survives the carving: the silhouette of " + describeView(std::size_t(i), views.view(i).name) + " is empty");
     }
   }
   std::string culprits;
@@ -295,14 +294,14 @@ bool survivesWithout(const LatticeViews& views, int left, int backgroundVotes)
       execution.checkpoint(1.0);
       if (survivesWithout(coarseViews, i, octree.backgroundVotes))
       {
-        culprits += (culprits.empty() ? "" : ", ") + nameOfView(views.prepared(), i);
+        culprits += (culprits.empty() ? "" : ", ") + describeView(std::size_t(i), views.view(i).name);
       }
     }
   }
   const auto& carved = octree.statistics.carvedByView;
   const int most = int(std::max_element(carved.begin(), carved.end()) - carved.begin());
   throw NothingSurvives("nothing survives the carving: " +
-    (culprits.empty() ? "no single view is at fault; " + nameOfView(views.prepared(), most) + " carves most, " +
+    (culprits.empty() ? "no single view is at fault; " + describeView(std::size_t(most), views.view(most).name) + " carves most, " +
           std::to_string(100.0 * carved[most]) + " % of the cube"
                       : "something would be left without " + culprits) +
     ". Check the bounds, the projection matrices and the silhouettes' polarity");

@@ -65,11 +65,11 @@ void requireSinglePrecision(const Lattice& lattice)
     std::max(lattice.root.origin.cwiseAbs().maxCoeff(), far.cwiseAbs().maxCoeff());
   const auto single = float(largest);
   const double spacing = double(std::nextafter(single, std::numeric_limits<float>::infinity())) - single;
-  if (!(spacing * 400.0 <= lattice.leafEdge()))
+  if (!(spacing * 1024.0 <= lattice.leafEdge()))
   {
     throw InvalidInput("single precision is too coarse for depth " + std::to_string(lattice.depth) +
       ": near coordinate " + std::to_string(largest) + " it resolves " + std::to_string(spacing / lattice.leafEdge()) +
-      " of a leaf octant, 0.0025 is needed; write double precision, or move the origin nearer to the object");
+      " of a leaf octant, 1/1024 is needed; write double precision, or move the origin nearer to the object");
   }
 }
 

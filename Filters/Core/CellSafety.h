@@ -20,7 +20,7 @@ namespace silhouette
 Mesh placePoints(const Lattice& lattice, const CornerShell& shell, const LatticeSurface& surface,
   const std::vector<double>& fractions, bool singlePrecision);
 
-/** Throws InvalidInput where float cannot hold the lattice's surfaces: a 400th of a leaf is the least it must resolve. */
+/** Throws InvalidInput where float cannot hold the lattice's surfaces: it must resolve 1/1024 of a leaf. */
 void requireSinglePrecision(const Lattice& lattice);
 
 /**

@@ -292,6 +292,7 @@ std::vector<LocalHull> localHulls(
   }
   std::sort(hulls.begin(), hulls.end(),
     [](const LocalHull& a, const LocalHull& b) { return a.surfacePoints < b.surfacePoints; });
+  execution.checkpoint(1.0);
   return hulls;
 }
 

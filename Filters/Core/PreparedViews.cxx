@@ -39,37 +39,32 @@ private:
   std::uint64_t Hash = 0xcbf29ce484222325ULL;
 };
 
-std::string describe(const View& view, std::size_t index)
-{
-  return "view " + std::to_string(index) + (view.name.empty() ? std::string() : " (" + view.name + ")");
-}
-
 void check(const View& view, std::size_t index)
 {
   const auto& image = view.silhouette;
   if (image.width < 1 || image.height < 1)
   {
-    throw InvalidInput(describe(view, index) + ": the silhouette is empty, " + std::to_string(image.width) + " x " +
+    throw InvalidInput(describeView(index, view.name) + ": the silhouette is empty, " + std::to_string(image.width) + " x " +
       std::to_string(image.height) + " pixels");
   }
   if (image.pixels.size() != std::size_t(image.width) * image.height)
   {
-    throw InvalidInput(describe(view, index) + ": " + std::to_string(image.pixels.size()) + " pixel values for " +
+    throw InvalidInput(describeView(index, view.name) + ": " + std::to_string(image.pixels.size()) + " pixel values for " +
       std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels");
   }
   if (std::size_t(image.width) * image.height > std::size_t(0x7fffffff))
   {
-    throw InvalidInput(describe(view, index) + ": more than 2^31 - 1 pixels");
+    throw InvalidInput(describeView(index, view.name) + ": more than 2^31 - 1 pixels");
   }
   if (!view.projection.allFinite())
   {
-    throw InvalidInput(describe(view, index) + ": the projection matrix holds a value that is not finite");
+    throw InvalidInput(describeView(index, view.name) + ": the projection matrix holds a value that is not finite");
   }
   const int rank = projectionRank(view.projection);
   if (rank < 3)
   {
     throw InvalidInput(
-      describe(view, index) + ": the projection matrix has rank " + std::to_string(rank) + ", 3 is needed");
+      describeView(index, view.name) + ": the projection matrix has rank " + std::to_string(rank) + ", 3 is needed");
   }
 }
 

@@ -28,6 +28,12 @@ struct BinaryImage
   std::uint8_t at(int column, int row) const { return this->pixels[std::size_t(row) * this->width + column]; }
 };
 
+/** How messages call a view: "view 3 (mask.png)", or "view 3" where it has no name. */
+inline std::string describeView(std::size_t index, const std::string& name)
+{
+  return "view " + std::to_string(index) + (name.empty() ? std::string() : " (" + name + ")");
+}
+
 /**
  * One calibrated silhouette. `w (u, v, 1)^T = projection (X, Y, Z, 1)^T` with w > 0 in front of the camera, u to
  * the right, v down, in pixels, the centre of the top-left pixel at (0, 0); X, Y, Z in the capture's unit.

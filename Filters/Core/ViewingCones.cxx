@@ -199,7 +199,7 @@ Search search(const std::vector<Cone>& cones, const Vector3& centre, double half
     std::swap(cones[i], cones.back());
     if (without.box || without.unbounded)
     {
-      culprits += (culprits.empty() ? "" : ", ") + nameOfView(views, i);
+      culprits += (culprits.empty() ? "" : ", ") + describeView(std::size_t(i), views[i].name);
     }
   }
   throw NothingSurvives("nothing survives: the viewing cones of the silhouettes have no point in common" +
@@ -210,12 +210,6 @@ Search search(const std::vector<Cone>& cones, const Vector3& centre, double half
 
 } // namespace
 
-std::string nameOfView(const PreparedViews& views, int i)
-{
-  const auto& name = views[i].name;
-  return "view " + std::to_string(i) + (name.empty() ? std::string() : " (" + name + ")");
-}
-
 Box intersectViewingCones(const PreparedViews& views, int backgroundVotes)
 {
   std::vector<Projection> projections;
@@ -224,7 +218,7 @@ Box intersectViewingCones(const PreparedViews& views, int backgroundVotes)
   {
     if (views[i].objectBox[1] < 0 && backgroundVotes == 0)
     {
-      throw NothingSurvives("nothing survives: the silhouette of " + nameOfView(views, i) + " is empty");
+      throw NothingSurvives("nothing survives: the silhouette of " + describeView(std::size_t(i), views[i].name) + " is empty");
     }
     projections.push_back(views[i].projection);
     pixels.push_back(boxCentre(views[i]));

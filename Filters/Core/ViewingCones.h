@@ -8,15 +8,10 @@
 
 #include <Eigen/Geometry>
 
-#include <string>
-
 namespace silhouette
 {
 
 using Box = Eigen::AlignedBox3d;
-
-/** How messages call a view: its number, and its name where it has one. */
-std::string nameOfView(const PreparedViews& views, int i);
 
 /**
  * The box of the points that at most `backgroundVotes` cones leave out, to within a 16th of it. With a point common to

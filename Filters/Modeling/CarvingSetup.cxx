@@ -120,6 +120,23 @@ std::string silhouetteWarning(const PreparedView& view, const std::string& name)
   return sides.empty() ? sides : name + ": the silhouette is cut by the image's border (" + sides + ")";
 }
 
+/** Few warnings apart, many as one: a line for each of hundreds of views would hide all others. */
+void appendJoined(std::vector<std::string>& some, std::vector<std::string>& warnings)
+{
+  constexpr std::size_t MostApart = 8;
+  if (some.size() <= MostApart)
+  {
+    warnings.insert(warnings.end(), some.begin(), some.end());
+    return;
+  }
+  std::string text = std::to_string(some.size()) + " silhouettes are doubtful";
+  for (const std::string& one : some)
+  {
+    text += "; " + one;
+  }
+  warnings.push_back(std::move(text));
+}
+
 bool hasInsideBorderCorner(const LatticePoint& cell, const Octree& octree, const LatticeViews& views)
 {
   for (int c = 0; c < 8; ++c)
@@ -180,16 +197,15 @@ std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice&
   std::vector<std::string> warnings;
   std::vector<Projection> projections;
   std::vector<std::string> names;
-  constexpr int MostNamed = 8; // a line for each of hundreds of views would hide all others
-  int silhouettes = 0;
+  std::vector<std::string> silhouettes;
   for (int i = 0; i < views.size(); ++i)
   {
     const PreparedView& view = views[i];
     const std::string name = describeView(std::size_t(i), view.name);
     std::string warning = silhouetteWarning(view, name);
-    if (!warning.empty() && ++silhouettes <= MostNamed)
+    if (!warning.empty())
     {
-      warnings.push_back(std::move(warning));
+      silhouettes.push_back(std::move(warning));
     }
     if (cameraInside(view.projection, lattice.root))
     {
@@ -199,11 +215,7 @@ std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice&
     projections.push_back(view.projection);
     names.push_back(view.name);
   }
-  if (silhouettes > MostNamed)
-  {
-    warnings.push_back("so are, cut by the border or all object, the silhouettes of " +
-                       std::to_string(silhouettes - MostNamed) + " more views");
-  }
+  appendJoined(silhouettes, warnings);
   if (views.size() == 1 && !automaticBounds)
   {
     warnings.push_back("only " + describeView(0, views[0].name) +

@@ -27,24 +27,6 @@ namespace silhouette::modeling
 namespace
 {
 
-void checkSinglePrecision(const Mesh& mesh, double smallestStep)
-{
-  double largest = 0.0;
-  for (const Eigen::Vector3d& point : mesh.points)
-  {
-    largest = std::max(largest, point.cwiseAbs().maxCoeff());
-  }
-  const double spacing = largest * std::numeric_limits<float>::epsilon();
-  if (smallestStep > 0.0 && spacing > smallestStep)
-  {
-    std::ostringstream text;
-    text << "single precision is too coarse for this depth: coordinates up to " << largest << " are "
-         << spacing << " apart as floats, the surface needs " << smallestStep
-         << "; use double precision, a smaller depth, or an origin nearer to the object";
-    throw InvalidInput(text.str());
-  }
-}
-
 void storePoints(const Mesh& mesh, bool single, vtkPolyData* out)
 {
   vtkNew<vtkPoints> points;
@@ -108,10 +90,6 @@ void storeNormals(const Mesh& mesh, vtkPolyData* out)
 void storeMesh(const Mesh& mesh, const MeshOutput& options, vtkPolyData* out)
 {
   const bool single = options.pointsPrecision == vtkAlgorithm::SINGLE_PRECISION;
-  if (single)
-  {
-    checkSinglePrecision(mesh, options.smallestStep);
-  }
   storePoints(mesh, single, out);
   storeTriangles(mesh, out);
   if (options.normals)

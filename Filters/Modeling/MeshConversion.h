@@ -17,14 +17,13 @@ namespace silhouette::modeling
 
 struct MeshOutput
 {
-  int pointsPrecision = 1;   ///< vtkAlgorithm::DesiredOutputPrecision; the default precision is double here
-  bool normals = false;      ///< point normals, the area-weighted mean of the triangles' normals
-  double smallestStep = 0.0; ///< coordinates this far apart must stay apart; 0 asks for nothing
+  int pointsPrecision = 1; ///< vtkAlgorithm::DesiredOutputPrecision; the default precision is double here
+  bool normals = false;    ///< point normals, the area-weighted mean of the triangles' normals
 };
 
 /**
- * Give `out` the mesh's points and triangles, and normals where asked for; its field data stay. Throws
- * InvalidInput where single precision cannot keep `smallestStep`: the message gives the numbers.
+ * Give `out` the mesh's points and triangles, and normals where asked for; its field data stay. Whether single
+ * precision is enough is the caller's question (requireSinglePrecision).
  */
 void storeMesh(const Mesh& mesh, const MeshOutput& options, vtkPolyData* out);
 

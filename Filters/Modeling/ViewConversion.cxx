@@ -67,11 +67,6 @@ void checkTwoDimensional(vtkImageData* image, const std::string& view)
 
 } // namespace
 
-std::string describeView(std::size_t index, const std::string& name)
-{
-  return "view " + std::to_string(index) + (name.empty() ? std::string() : " (" + name + ")");
-}
-
 std::vector<ImageView> imageViews(vtkPartitionedDataSetCollection* collection)
 {
   std::vector<ImageView> views;

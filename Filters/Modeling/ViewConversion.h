@@ -39,9 +39,6 @@ struct PixelRows
   std::vector<std::uint8_t> values;
 };
 
-/** "view 3 (mask.png)", or "view 3" where there is no name. */
-std::string describeView(std::size_t index, const std::string& name);
-
 /** The collection's views. Throws InvalidInput naming the view that has no image, or no `Projection` of 12
  * values. */
 std::vector<ImageView> imageViews(vtkPartitionedDataSetCollection* collection);

@@ -45,7 +45,7 @@ void extractSome(const std::vector<ImageView>& views, std::size_t first, std::si
                             silhouette::View& result = out[first + i];
                             result.silhouette = silhouette::extractSilhouette(
                                 colourImage(view, first + i), options, isMask(view),
-                                view.name.empty() ? describeView(first + i, view.name) : view.name);
+                                view.name.empty() ? silhouette::describeView(first + i, view.name) : view.name);
                             result.name = view.name;
                             result.projection = view.projection;
                           }

@@ -197,7 +197,7 @@ void vtkSilhouetteOctreeSource::PrintSelf(ostream& os, vtkIndent indent)
   for (std::size_t i = 0; i < this->Internals->Added.size(); ++i)
   {
     const ImageView& view = this->Internals->Added[i];
-    os << indent.GetNextIndent() << describeView(i, view.name) << ": " << view.image.GetPointer()
+    os << indent.GetNextIndent() << silhouette::describeView(i, view.name) << ": " << view.image.GetPointer()
        << ", Projection:";
     for (int n = 0; n < 12; ++n)
     {

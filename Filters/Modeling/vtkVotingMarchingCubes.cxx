@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVotingMarchingCubes.h"
 
+#include "CellSafety.h"
 #include "FieldValues.h"
 #include "MeshConversion.h"
 #include "OctreeConversion.h"
@@ -48,6 +49,10 @@ int vtkVotingMarchingCubes::RequestData(vtkInformation*, vtkInformationVector** 
       return;
     }
     const silhouette::Octree octree = octreeOf(grid);
+    if (this->OutputPointsPrecision == SINGLE_PRECISION)
+    {
+      silhouette::requireSinglePrecision(octree.lattice);
+    }
     execution.checkpoint(0.05);
     silhouette::Phase preparing(execution, 0.05, 0.1);
     silhouette::ViewOptions viewOptions;
@@ -65,7 +70,6 @@ int vtkVotingMarchingCubes::RequestData(vtkInformation*, vtkInformationVector** 
     MeshOutput output;
     output.pointsPrecision = this->OutputPointsPrecision;
     output.normals = this->GenerateNormals;
-    output.smallestStep = octree.lattice.leafEdge() / 1024.0; // vertices keep 0.01 of an edge from its ends
     storeMesh(found.mesh, output, surface);
     storeInsideVotes(found.insideVotes, surface);
     setField(surface, "IntersectionOctants", found.intersectionOctants);

@@ -54,16 +54,13 @@ TEST(CellSafety, RepairsACellThatWasMadeToIntersectItself)
   EXPECT_EQ(removeCellIntersections(r.lattice, r.shell, r.surface, false, mesh, r.execution), 0u);
   EXPECT_TRUE(selfIntersections(mesh, r.execution).empty());
   // Push points off their edges, far enough to fold their cells.
-  int broken = 0;
   for (std::size_t p = 0; p < mesh.points.size(); p += 97)
   {
     mesh.points[p] += Eigen::Vector3d(0.21, -0.17, 0.13);
-    ++broken;
   }
   ASSERT_FALSE(selfIntersections(mesh, r.execution).empty());
   EXPECT_GT(removeCellIntersections(r.lattice, r.shell, r.surface, false, mesh, r.execution), 0u);
-  std::vector<std::uint8_t> bad(r.shell.cells.size(), 0);
-  for (std::size_t cell = 0; cell < bad.size(); ++cell)
+  for (std::size_t cell = 0; cell < r.shell.cells.size(); ++cell)
   {
     std::vector<std::int32_t> own;
     for (std::uint32_t t = cell ? r.surface.cellEnd[cell - 1] : 0; t < r.surface.cellEnd[cell]; ++t)

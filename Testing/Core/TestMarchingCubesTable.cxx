@@ -54,9 +54,11 @@ int turned(int inside, int axis)
 
 TEST(MarchingCubesTable, EveryCrossedEdgeIsInExactlyOneLoop)
 {
+  std::size_t loops = 0;
   for (int inside = 0; inside < 256; ++inside)
   {
     std::array<int, 12> uses{};
+    loops += marchingCubesTable()[inside].loops.size();
     for (const auto& loop : marchingCubesTable()[inside].loops)
     {
       EXPECT_GE(loop.size(), 3u);
@@ -72,6 +74,7 @@ TEST(MarchingCubesTable, EveryCrossedEdgeIsInExactlyOneLoop)
       EXPECT_EQ(uses[e], int(crossed)) << "case " << inside << " edge " << e;
     }
   }
+  EXPECT_EQ(loops, 358u);
 }
 
 TEST(MarchingCubesTable, HasFourteenClassesBesideTheEmptyUnderRotationAndReversal)

@@ -364,6 +364,24 @@ TEST(VtkSilhouetteOctreeSource, WarnsAndGoesOn)
   source->AddView(half, camera.data(), "cut.png");
   warned(source, {"view 8 (cut.png): the silhouette is cut by the image's border (left, right)"});
 
+  // Many views are warned of in one message, which still names each of them.
+  source->RemoveAllViews();
+  for (int n = 0; n < 9; ++n)
+  {
+    source->AddView(plainImage(ImageSize, ImageSize, 255), camera.data(), ("full" + std::to_string(n)).c_str());
+  }
+  {
+    const Listener listener(source);
+    source->Modified();
+    source->Update();
+    ASSERT_EQ(listener.Warnings.size(), 1u);
+    EXPECT_EQ(listener.warnings("9 silhouettes are doubtful"), 1);
+    for (int n = 0; n < 9; ++n)
+    {
+      EXPECT_EQ(listener.warnings("(full" + std::to_string(n) + "): the silhouette is all object"), 1);
+    }
+  }
+
   source->RemoveAllViews();
   source->SetAutomaticBounds(false);
   source->SetBounds(-1.0, 1.0, -0.5, 0.5, -0.5, 0.5);
