@@ -14,7 +14,7 @@ namespace
 
 Eigen::Vector3d rounded(const Eigen::Vector3d& p, bool singlePrecision)
 {
-  return singlePrecision ? Eigen::Vector3d(p.cast<float>().cast<double>()) : p;
+  return singlePrecision ? roundedToFloat(p) : p;
 }
 
 std::uint32_t cellBegin(const LatticeSurface& surface, std::size_t cell)

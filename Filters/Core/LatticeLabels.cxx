@@ -105,9 +105,9 @@ LatticeLabels::LatticeLabels(
   : TheOctree(&octree)
   , Shell(std::move(shell))
   , Inside(Shell.corners.size())
-  , Votes(Shell.corners.size())
+  , Support(Shell.corners.size())
 {
-  this->markSurvivors();
+  this->setSurvivors(leafCells(octree, OctantState::Intersection));
   const LatticeViews latticeViews(views, octree.lattice);
   const int required = views.size() - octree.backgroundVotes;
   execution.forRanges(this->Shell.corners.size(), 1024,
@@ -116,8 +116,9 @@ LatticeLabels::LatticeLabels(
       for (std::size_t c = first; c < last; ++c)
       {
         const LatticePoint p = fromMorton(this->Shell.corners[c]);
-        this->Votes[c] = std::uint16_t(latticeViews.insideVotes(p));
-        this->Inside[c] = this->Votes[c] >= required && !octree.lattice.onBorder(p);
+        const int votes = latticeViews.insideVotes(p);
+        this->Support[c] = float(votes);
+        this->Inside[c] = votes >= required && !octree.lattice.onBorder(p);
       }
     });
 }
@@ -126,9 +127,9 @@ LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const Surf
   : TheOctree(&octree)
   , Shell(std::move(shell))
   , Inside(Shell.corners.size(), Unknown)
-  , Votes(Shell.corners.size(), 0)
+  , Support(Shell.corners.size(), 0.0f)
 {
-  this->markSurvivors();
+  this->setSurvivors(leafCells(octree, OctantState::Intersection));
   this->fromOctree();
   const auto label = [&](std::ptrdiff_t corner, std::uint8_t value)
   {
@@ -147,6 +148,22 @@ LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const Surf
   }
   this->spread(crossings);
   std::replace(this->Inside.begin(), this->Inside.end(), Unknown, std::uint8_t(0));
+}
+
+LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const BrickField& field)
+  : TheOctree(&octree)
+  , Shell(std::move(shell))
+  , Inside(Shell.corners.size())
+  , Support(Shell.corners.size(), 0.0f)
+  , Field(&field)
+{
+  this->setSurvivors(leafCells(octree, OctantState::Intersection));
+  for (std::size_t c = 0; c < this->Shell.corners.size(); ++c)
+  {
+    this->Inside[c] = this->unlabelled(fromMorton(this->Shell.corners[c]));
+    const std::ptrdiff_t point = field.find(this->Shell.corners[c]);
+    this->Support[c] = point >= 0 ? field.values()[point] : 0.0f;
+  }
 }
 
 /** Labels go along the edges that the surface does not cross, breadth first in lattice order. */
@@ -187,13 +204,12 @@ void LatticeLabels::spread(const SurfaceCrossings& crossings)
   }
 }
 
-void LatticeLabels::markSurvivors()
+void LatticeLabels::setSurvivors(const std::vector<std::uint64_t>& cells)
 {
-  const auto survivors = leafCells(*this->TheOctree, OctantState::Intersection);
-  this->Survivor.reserve(this->Shell.cells.size());
-  for (const std::uint64_t cell : this->Shell.cells)
+  this->Survivor.assign(this->Shell.cells.size(), 0);
+  for (std::size_t cell = 0; cell < this->Shell.cells.size(); ++cell)
   {
-    this->Survivor.push_back(std::binary_search(survivors.begin(), survivors.end(), cell));
+    this->Survivor[cell] = std::binary_search(cells.begin(), cells.end(), this->Shell.cells[cell]);
   }
 }
 
@@ -234,9 +250,19 @@ bool LatticeLabels::insideAt(const LatticePoint& p) const
     return false;
   }
   const std::ptrdiff_t corner = this->Shell.find(mortonCode(p));
-  if (corner >= 0)
+  return corner >= 0 ? this->Inside[corner] != 0 : this->unlabelled(p);
+}
+
+bool LatticeLabels::unlabelled(const LatticePoint& p) const
+{
+  if (this->TheOctree->lattice.onBorder(p))
   {
-    return this->Inside[corner] != 0;
+    return false;
+  }
+  const std::ptrdiff_t point = this->Field ? this->Field->find(mortonCode(p)) : -1;
+  if (point >= 0)
+  {
+    return this->Field->values()[point] > 0.0f;
   }
   // No intersection octant of the last generation touches it: every octant around it tells.
   const auto location = this->TheOctree->locate(p);

@@ -5,6 +5,7 @@
  */
 #pragma once
 
+#include "BrickField.h"
 #include "CornerShell.h"
 #include "Mesh.h"
 #include "PreparedViews.h"
@@ -54,14 +55,25 @@ public:
    */
   LatticeLabels(const Octree& octree, CornerShell shell, const SurfaceCrossings& crossings);
 
+  /**
+   * Labels by a field, inside where it is positive; by the octree where the field has no values. The shell has to hold every cell with
+   * corners of both signs and those of which field and octree tell different things.
+   */
+  LatticeLabels(const Octree& octree, CornerShell shell, const BrickField& field);
+
+  /** Take these cells (Morton codes, ascending) for the survivors, instead of the octree's intersection octants. */
+  void setSurvivors(const std::vector<std::uint64_t>& cells);
+
   const Octree& octree() const { return *this->TheOctree; }
+  const BrickField* field() const { return this->Field; }
   const CornerShell& shell() const { return this->Shell; }
   const std::vector<std::uint8_t>& inside() const { return this->Inside; }
-  /** Inside votes of the shell's corners; all 0 where there were no views. */
-  const std::vector<std::uint16_t>& votes() const { return this->Votes; }
+  /** How much speaks for the shell's corners being inside: the field, else their inside votes; all 0 where there are neither. */
+  const std::vector<float>& support() const { return this->Support; }
 
   /** Label a corner of the shell inside. */
   void setInside(std::size_t corner) { this->Inside[corner] = 1; }
+  void setOutside(std::size_t corner) { this->Inside[corner] = 0; }
   /** Label a background octant's corners inside, as part of a filled cavity. */
   void fillOctant(int generation, std::size_t index);
 
@@ -73,7 +85,8 @@ public:
   int cellsAround(const LatticePoint& p, std::array<std::uint32_t, 8>& cells) const;
 
 private:
-  void markSurvivors();
+  /** Label of a lattice point that is no corner of the shell. */
+  bool unlabelled(const LatticePoint& p) const;
   void fromOctree();
   void spread(const SurfaceCrossings& crossings);
 
@@ -81,7 +94,8 @@ private:
   CornerShell Shell;
   std::vector<std::uint8_t> Inside;
   std::vector<std::uint8_t> Survivor;
-  std::vector<std::uint16_t> Votes;
+  std::vector<float> Support;
+  const BrickField* Field = nullptr;
   std::vector<std::pair<int, std::size_t>> Filled; ///< sorted
 };
 

@@ -53,12 +53,17 @@ LatticeRegions emptyRegions(const Octree& octree, std::size_t corners)
  * Join octants of one state across their faces. Every pair of neighbours is met from its smaller octant. With
  * `beyond`, octants at the root cube's border are joined to the world beyond.
  */
-void joinOctants(const Octree& octree, OctantState state, bool beyond, LatticeRegions& regions)
+void joinOctants(const Octree& octree, OctantState state, bool beyond, const std::vector<std::uint8_t>& refuted, LatticeRegions& regions)
 {
   const auto node = [&](int g, std::size_t i) { return std::uint32_t(regions.firstOctant[g] + i); };
+  const auto counts = [&](std::uint32_t octant) { return refuted.empty() || !refuted[octant - regions.firstOctant[0]]; };
   forOctants(octree, state,
     [&](int g, std::size_t i)
     {
+      if (!counts(node(g, i)))
+      {
+        return;
+      }
       const LatticePoint p = lowestCell(octree, g, i);
       const std::int32_t size = std::int32_t(1) << (octree.lattice.depth - g);
       const LatticePoint across[6] = { { p.i - 1, p.j, p.k }, { p.i + size, p.j, p.k }, { p.i, p.j - 1, p.k },
@@ -74,7 +79,7 @@ void joinOctants(const Octree& octree, OctantState state, bool beyond, LatticeRe
           continue;
         }
         const auto other = octree.locate(cell);
-        if (other.generation >= 0 && other.generation <= g && other.state == state)
+        if (other.generation >= 0 && other.generation <= g && other.state == state && counts(node(other.generation, other.index)))
         {
           regions.sets.unite(node(g, i), node(other.generation, other.index));
         }
@@ -84,7 +89,8 @@ void joinOctants(const Octree& octree, OctantState state, bool beyond, LatticeRe
 
 /** Join a shell corner with the octants of one state that touch it. */
 void joinCornerToOctants(
-  const Octree& octree, const LatticePoint& p, std::uint32_t corner, OctantState state, LatticeRegions& regions)
+  const Octree& octree, const LatticePoint& p, std::uint32_t corner, OctantState state, const std::vector<std::uint8_t>& refuted,
+  LatticeRegions& regions)
 {
   for (int n = 0; n < 8; ++n)
   {
@@ -92,9 +98,51 @@ void joinCornerToOctants(
     const auto location = octree.locate({ p.i - o.i, p.j - o.j, p.k - o.k });
     if (location.generation >= 0 && location.state == state)
     {
-      regions.sets.unite(corner, std::uint32_t(regions.firstOctant[location.generation] + location.index));
+      const std::size_t octant = regions.firstOctant[location.generation] + location.index;
+      if (refuted.empty() || !refuted[octant - regions.firstOctant[0]])
+      {
+        regions.sets.unite(corner, std::uint32_t(octant));
+      }
     }
   }
+}
+
+/**
+ * Octants of one state that a field contradicts: the smallest at any of their corners, larger ones, of which a
+ * part is still what the octree says, at all of them. Nothing where the labels have no field.
+ */
+std::vector<std::uint8_t> refutedOctants(const LatticeLabels& labels, OctantState state)
+{
+  std::vector<std::uint8_t> refuted;
+  if (!labels.field())
+  {
+    return refuted;
+  }
+  const Octree& octree = labels.octree();
+  for (const auto& generation : octree.generations)
+  {
+    refuted.resize(refuted.size() + generation.size(), 0);
+  }
+  std::vector<std::size_t> first;
+  for (const auto& generation : octree.generations)
+  {
+    first.push_back(first.empty() ? 0 : first.back() + (&generation - 1)->size());
+  }
+  forOctants(octree, state,
+    [&](int g, std::size_t i)
+    {
+      const LatticePoint p = lowestCell(octree, g, i);
+      const std::int32_t size = std::int32_t(1) << (octree.lattice.depth - g);
+      int against = 0;
+      for (int n = 0; n < 8; ++n)
+      {
+        const LatticePoint o = cornerOffset(n);
+        const LatticePoint q{ p.i + size * o.i, p.j + size * o.j, p.k + size * o.k };
+        against += labels.insideAt(q) != (state == OctantState::Inside);
+      }
+      refuted[first[g] + i] = size == 1 ? against > 0 : against == 8;
+    });
+  return refuted;
 }
 
 /** The diagonals of a cell's faces, as corner pairs. */
@@ -132,7 +180,8 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
   const auto& shell = labels.shell();
   const OctantState state = inside ? OctantState::Inside : OctantState::Background;
   LatticeRegions regions = emptyRegions(octree, shell.corners.size());
-  joinOctants(octree, state, !inside, regions);
+  const std::vector<std::uint8_t> refuted = refutedOctants(labels, state);
+  joinOctants(octree, state, !inside, refuted, regions);
   joinCorners(labels, inside, regions);
   for (std::size_t c = 0; c < shell.corners.size(); ++c)
   {
@@ -143,7 +192,7 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
     }
     if ((labels.inside()[c] != 0) == inside)
     {
-      joinCornerToOctants(octree, p, std::uint32_t(c), state, regions);
+      joinCornerToOctants(octree, p, std::uint32_t(c), state, refuted, regions);
     }
   }
   return regions;
@@ -185,10 +234,47 @@ std::uint64_t fillCavities(LatticeLabels& labels)
   return cavities.size();
 }
 
+std::uint64_t dropUnsupported(LatticeLabels& labels)
+{
+  const Octree& octree = labels.octree();
+  LatticeRegions regions = connectRegions(labels, true);
+  std::set<std::uint32_t> supported;
+  const auto& shell = labels.shell();
+  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
+  {
+    for (const std::uint32_t corner : shell.cellCorners[cell])
+    {
+      if (labels.isSurvivor(cell) && labels.inside()[corner])
+      {
+        supported.insert(regions.sets.find(corner));
+      }
+    }
+  }
+  forOctants(octree, OctantState::Inside,
+    [&](int g, std::size_t i) { supported.insert(regions.sets.find(std::uint32_t(regions.firstOctant[g] + i))); });
+  std::set<std::uint32_t> dropped;
+  for (std::size_t c = 0; c < shell.corners.size(); ++c)
+  {
+    const std::uint32_t region = regions.sets.find(std::uint32_t(c));
+    if (labels.inside()[c] && !supported.count(region))
+    {
+      dropped.insert(region);
+    }
+  }
+  for (std::size_t c = 0; c < shell.corners.size() && !dropped.empty(); ++c)
+  {
+    if (labels.inside()[c] && dropped.count(regions.sets.find(std::uint32_t(c))))
+    {
+      labels.setOutside(c);
+    }
+  }
+  return dropped.size();
+}
+
 LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell)
 {
   LatticeRegions regions = emptyRegions(octree, shell.corners.size());
-  joinOctants(octree, OctantState::Inside, false, regions);
+  joinOctants(octree, OctantState::Inside, false, {}, regions);
   for (const auto& corners : shell.cellCorners)
   {
     for (const std::uint32_t corner : corners)
@@ -198,7 +284,7 @@ LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell)
   }
   for (std::size_t c = 0; c < shell.corners.size(); ++c)
   {
-    joinCornerToOctants(octree, fromMorton(shell.corners[c]), std::uint32_t(c), OctantState::Inside, regions);
+    joinCornerToOctants(octree, fromMorton(shell.corners[c]), std::uint32_t(c), OctantState::Inside, {}, regions);
   }
   return regions;
 }

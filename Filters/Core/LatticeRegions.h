@@ -26,6 +26,9 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside);
 /** Label the cavities, outside regions that do not reach the world beyond, inside; returns their number. */
 std::uint64_t fillCavities(LatticeLabels& labels);
 
+/** Label inside regions that hold neither a corner of a survivor nor an inside octant outside; returns their number. */
+std::uint64_t dropUnsupported(LatticeLabels& labels);
+
 /** Sets of the survivors that touch (26-neighbourhood), each with its corners; `shell` is that of the intersection octants. */
 LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell);
 

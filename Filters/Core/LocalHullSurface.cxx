@@ -5,7 +5,10 @@
 #include "EdgeCrossing.h"
 #include "LatticeRegions.h"
 #include "LatticeSurface.h"
+#include "RobustLabels.h"
 #include "SurvivorCovering.h"
+#include "SurvivorIslands.h"
+#include "ThesisHullSurface.h"
 
 #include <algorithm>
 #include <optional>
@@ -25,35 +28,14 @@ void check(const Octree& octree, const PreparedViews* views, const LocalHullOpti
   {
     throw InvalidInput("cover offset " + std::to_string(options.coverOffset) + " octants is outside 0.01 to 0.99");
   }
+  if (!(options.islandShare >= 0.0 && options.islandShare <= 1.0))
+  {
+    throw InvalidInput("island share " + std::to_string(options.islandShare) + " is outside 0 to 1");
+  }
   if (options.bridgeGap < 0)
   {
     throw InvalidInput("bridge gap " + std::to_string(options.bridgeGap) + " octants: at least 0 is needed");
   }
-}
-
-LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const PreparedViews* views,
-  const SurfaceCrossings& crossings, Execution& execution)
-{
-  return views ? LatticeLabels(octree, std::move(shell), *views, execution)
-               : LatticeLabels(octree, std::move(shell), crossings);
-}
-
-/** The shell with the eight cells around each of the given points, none of which is on the border. */
-CornerShell extended(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
-{
-  std::vector<std::uint64_t> cells = shell.cells;
-  for (const std::uint64_t point : points)
-  {
-    const LatticePoint p = fromMorton(point);
-    for (int n = 0; n < 8; ++n)
-    {
-      const LatticePoint o = cornerOffset(n);
-      cells.push_back(mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k }));
-    }
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return makeCornerShell(std::move(cells), execution);
 }
 
 std::vector<std::uint64_t> codesOf(const CornerShell& shell, const std::vector<std::uint32_t>& corners)
@@ -67,13 +49,14 @@ std::vector<std::uint64_t> codesOf(const CornerShell& shell, const std::vector<s
   return codes;
 }
 
-/** Where the surface crosses an edge: as the imperfect surface or the votes say, near the corner if that was added. */
+/** Where the surface crosses an edge: as field, surface or votes say, near the corner if that was added. */
 class CrossingPlacer
 {
 public:
   CrossingPlacer(const LatticeLabels& labels, const SurfaceCrossings& crossings, const PreparedViews* views,
     std::vector<std::uint64_t> added, double coverOffset)
     : Crossings(crossings)
+    , Field(labels.field())
     , Added(std::move(added))
     , BackgroundVotes(labels.octree().backgroundVotes)
     , CoverOffset(coverOffset)
@@ -90,37 +73,107 @@ public:
     {
       return this->CoverOffset;
     }
+    return std::clamp(this->Field ? this->inField(inside, outside) : this->onSurface(inside, outside), CrossingMargin,
+      1.0 - CrossingMargin);
+  }
+
+private:
+  double inField(std::uint64_t inside, std::uint64_t outside) const
+  {
+    const std::ptrdiff_t a = this->Field->find(inside), b = this->Field->find(outside);
+    if (a < 0 || b < 0)
+    {
+      return 0.5;
+    }
+    const double from = this->Field->values()[a], to = this->Field->values()[b];
+    return from > 0.0 && to <= 0.0 ? from / (from - to) : 0.5;
+  }
+
+  double onSurface(std::uint64_t inside, std::uint64_t outside) const
+  {
     const LatticePoint a = fromMorton(inside), b = fromMorton(outside);
     const int axis = a.i != b.i ? 0 : (a.j != b.j ? 1 : 2);
     const bool ascending = b.i + b.j + b.k > a.i + a.j + a.k;
     const auto known = this->Crossings.find(edgeKey(ascending ? inside : outside, axis));
-    double t = 0.5;
     if (known >= 0)
     {
       const double fraction = this->Crossings.crossings[known].fraction;
-      t = ascending ? fraction : 1.0 - fraction;
+      return ascending ? fraction : 1.0 - fraction;
     }
-    else if (this->Views)
-    {
-      t = exactCrossing(*this->Views, a, b, this->BackgroundVotes);
-    }
-    return std::clamp(t, CrossingMargin, 1.0 - CrossingMargin);
+    return this->Views ? exactCrossing(*this->Views, a, b, this->BackgroundVotes) : 0.5;
   }
 
-private:
   const SurfaceCrossings& Crossings;
   std::optional<LatticeViews> Views;
+  const BrickField* Field;
   std::vector<std::uint64_t> Added; ///< ascending
   int BackgroundVotes;
   double CoverOffset;
 };
 
-/** Contour the labels and place the points. */
-void makeSurface(const LatticeLabels& labels, const std::vector<std::uint64_t>& added, const CrossingPlacer& place,
-  bool singlePrecision, LocalHullSurface& surface, Execution& execution)
+/** The shell of the survivors and what bridges their components. */
+struct Survivors
+{
+  const Octree& octree;
+  CornerShell shell;
+  std::vector<Bridge> bridges;
+  std::vector<std::uint64_t> bridgePoints;
+
+  Survivors(const Octree& carved, int bridgeGap, Execution& execution)
+    : octree(carved)
+    , shell(makeCornerShell(leafCells(carved, OctantState::Intersection), execution))
+    , bridges(bridgeSurvivors(carved, this->shell, bridgeGap))
+  {
+    for (const auto& bridge : this->bridges)
+    {
+      this->bridgePoints.insert(this->bridgePoints.end(), bridge.begin(), bridge.end());
+    }
+  }
+};
+
+/** What of the covering is thin: no corner within an octant of it was inside before. */
+struct ThinParts
+{
+  std::vector<std::uint32_t> cells;
+  std::vector<std::uint64_t> corners; ///< covering ones, ascending
+
+  ThinParts(const LatticeLabels& labels, const CoveringResult& covering, const std::vector<std::uint64_t>& added)
+  {
+    for (const std::uint32_t cell : covering.coveredCells)
+    {
+      const LatticePoint p = fromMorton(labels.shell().cells[cell]);
+      bool thin = true;
+      for (int n = 0; n < 64 && thin; ++n)
+      {
+        const LatticePoint q{ p.i + n % 4 - 1, p.j + n / 4 % 4 - 1, p.k + n / 16 - 1 };
+        thin = labels.octree().lattice.onBorder(q) || !labels.insideAt(q) ||
+          std::binary_search(added.begin(), added.end(), mortonCode(q));
+      }
+      if (thin)
+      {
+        this->cells.push_back(cell);
+        for (const std::uint32_t corner : labels.shell().cellCorners[cell])
+        {
+          const std::uint64_t code = labels.shell().corners[corner];
+          if (std::binary_search(added.begin(), added.end(), code))
+          {
+            this->corners.push_back(code);
+          }
+        }
+      }
+    }
+    std::sort(this->corners.begin(), this->corners.end());
+    this->corners.erase(std::unique(this->corners.begin(), this->corners.end()), this->corners.end());
+  }
+};
+
+/** Contour the labels, place the points, and round the thin parts. */
+void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const CoveringResult& covering, const CrossingPlacer& place,
+  const std::vector<std::uint64_t>& added, const LatticeViews* views, const LocalHullOptions& options,
+  LocalHullSurface& surface, Execution& execution)
 {
   const Lattice& lattice = labels.octree().lattice;
-  const CornerShell shell = extended(labels.shell(), added, execution);
+  const CornerShell shell = extendedShell(labels.shell(), added, execution);
   std::vector<std::uint8_t> inside(shell.corners.size());
   execution.forRanges(inside.size(), 1024,
     [&](std::size_t first, std::size_t last)
@@ -130,8 +183,8 @@ void makeSurface(const LatticeLabels& labels, const std::vector<std::uint64_t>& 
         inside[c] = labels.insideAt(fromMorton(shell.corners[c]));
       }
     });
-  execution.checkpoint(0.3);
-  LatticeSurface contoured = contour(shell, inside, execution);
+  execution.checkpoint(0.2);
+  const LatticeSurface contoured = contour(shell, inside, execution);
   std::vector<double> fractions(contoured.edges.size());
   execution.forRanges(fractions.size(), 256,
     [&](std::size_t first, std::size_t last)
@@ -141,10 +194,108 @@ void makeSurface(const LatticeLabels& labels, const std::vector<std::uint64_t>& 
         fractions[e] = place(shell.corners[contoured.edges[e].inside], shell.corners[contoured.edges[e].outside]);
       }
     });
-  execution.checkpoint(0.7);
-  surface.mesh = placePoints(lattice, shell, contoured, fractions, singlePrecision);
+  execution.checkpoint(0.4);
+  surface.mesh = placePoints(lattice, shell, contoured, fractions, options.singlePrecision);
+  Phase separating(execution, 0.4, 0.5);
   surface.movedToMiddle =
-    removeCellIntersections(lattice, shell, contoured, singlePrecision, surface.mesh, execution);
+    removeCellIntersections(lattice, shell, contoured, options.singlePrecision, surface.mesh, separating);
+  execution.checkpoint(0.5);
+  if (!views || !options.thinHulls)
+  {
+    return;
+  }
+  const ThinParts thin(labels, covering, added);
+  if (!thin.cells.empty())
+  {
+    Phase measuring(execution, 0.5, 0.6);
+    const SilhouetteDepth depth(*views, labels.octree().backgroundVotes, 1.0, measuring);
+    Phase hulling(execution, 0.6, 0.7);
+    const auto hulls = thinHulls(labels, thin.cells, depth, options.thin, hulling);
+    surface.thinHulls = hulls.size();
+    Phase thinning(execution, 0.7, 1.0);
+    surface.movedToHulls = moveToThinHulls(
+      hulls, { labels, survivors.octree, thin.corners, shell, contoured, options.singlePrecision }, &depth, options.thin, surface.mesh, thinning);
+  }
+}
+
+/** Labels with every survivor covered, and the surface of them. */
+void coverAndContour(LatticeLabels& labels, const Survivors& survivors, const SurfaceCrossings& crossings,
+  const PreparedViews* views, const LocalHullOptions& options, LocalHullSurface& surface, Execution& execution)
+{
+  surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
+  execution.checkpoint(0.1);
+  const CoveringResult covering = coverSurvivors(labels, survivors.bridges);
+  surface.coveredOctants = covering.coveredCells.size();
+  surface.coveringCorners = covering.coveringCorners.size();
+  execution.checkpoint(0.3);
+  surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
+  execution.checkpoint(0.4);
+  const auto added = codesOf(labels.shell(), covering.coveringCorners);
+  const CrossingPlacer place(labels, crossings, views, added, options.coverOffset);
+  std::optional<LatticeViews> latticeViews;
+  if (views)
+  {
+    latticeViews.emplace(*views, labels.octree().lattice);
+  }
+  Phase contouring(execution, 0.4, 1.0);
+  makeSurface(labels, survivors, covering, place, added, latticeViews ? &*latticeViews : nullptr, options, surface, contouring);
+}
+
+LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
+  const LocalHullOptions& options, Execution& execution)
+{
+  LocalHullSurface surface;
+  const Survivors survivors(octree, options.bridgeGap, execution);
+  surface.bridges = survivors.bridges.size();
+  surface.survivors = octree.count(OctantState::Intersection, octree.lattice.depth) +
+    octree.count(OctantState::Inside, octree.lattice.depth);
+  execution.checkpoint(0.1);
+  Phase finishing(execution, 0.6, 1.0);
+  if (!views)
+  {
+    const SurfaceCrossings crossings = locateCrossings(imperfect, octree.lattice);
+    surface.ignoredPoints = crossings.ignoredPoints;
+    LatticeLabels labels(octree, extendedShell(survivors.shell, survivors.bridgePoints, execution), crossings);
+    coverAndContour(labels, survivors, crossings, nullptr, options, surface, finishing);
+    return surface;
+  }
+  Phase correcting(execution, 0.1, 0.5);
+  const CorrectedCapture capture = correctCapture(imperfect, octree, survivors.shell, *views, options, correcting);
+  surface.deficit = capture.correction.deficit;
+  surface.alignment = capture.correction.alignment;
+  surface.repairedPixels = capture.repairedPixels;
+  LatticeLabels labels =
+    correctedLabels(octree, survivors.shell, survivors.bridgePoints, *views, capture, execution);
+  execution.checkpoint(0.6);
+  const SurfaceCrossings crossings = locateCrossings(capture.surface ? *capture.surface : imperfect, octree.lattice);
+  surface.ignoredPoints = crossings.ignoredPoints;
+  coverAndContour(labels, survivors, crossings, capture.repaired ? &*capture.repaired : views, options, surface, finishing);
+  return surface;
+}
+
+/** What the Thesis mode takes its points from: every survivor covered, and nothing corrected. */
+LocalHullSurface coveredSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
+  const LocalHullOptions& options, Execution& execution)
+{
+  LocalHullOptions plain = options;
+  plain.repairSilhouettes = false;
+  plain.correction.alignViews = false;
+  plain.correction.moveSurface = false;
+  plain.thinHulls = false;
+  return robustSurface(imperfect, octree, views, plain, execution);
+}
+
+LocalHullSurface thesisSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
+  const LocalHullOptions& options, Execution& execution)
+{
+  Phase covering(execution, 0.0, 0.4);
+  const LocalHullSurface covered = coveredSurface(imperfect, octree, views, options, covering);
+  Phase combining(execution, 0.4, 1.0);
+  LocalHullSurface surface = thesisHullSurface(covered.mesh, octree, options, combining);
+  surface.coveredOctants = covered.coveredOctants;
+  surface.coveringCorners = covered.coveringCorners;
+  surface.bridges = covered.bridges;
+  return surface;
 }
 
 } // namespace
@@ -153,43 +304,24 @@ LocalHullSurface localHullSurface(const Mesh& imperfect, const Octree& octree, c
   const LocalHullOptions& options, Execution& execution)
 {
   check(octree, views, options);
-  LocalHullSurface surface;
   if (octree.generations.empty())
   {
-    return surface;
+    return {};
   }
-  const SurfaceCrossings crossings = locateCrossings(imperfect, octree.lattice);
-  surface.ignoredPoints = crossings.ignoredPoints;
-  execution.checkpoint(0.1);
-  CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
-  const std::vector<Bridge> bridges = bridgeSurvivors(octree, shell, options.bridgeGap);
-  surface.bridges = bridges.size();
-  if (!bridges.empty())
+  std::uint64_t dropped = 0;
+  std::optional<Octree> kept;
+  if (options.islandShare > 0.0)
   {
-    std::vector<std::uint64_t> points;
-    for (const auto& bridge : bridges)
-    {
-      points.insert(points.end(), bridge.begin(), bridge.end());
-    }
-    shell = extended(shell, points, execution);
+    Phase dropping(execution, 0.0, 0.1);
+    kept = dropIslands(octree, options.islandShare, dropped, dropping);
   }
-  execution.checkpoint(0.2);
-  LatticeLabels labels = makeLabels(octree, std::move(shell), views, crossings, execution);
-  execution.checkpoint(0.35);
-  surface.survivors = octree.count(OctantState::Intersection, octree.lattice.depth) +
-    octree.count(OctantState::Inside, octree.lattice.depth);
-  surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
-  execution.checkpoint(0.4);
-  const CoveringResult covering = coverSurvivors(labels, bridges);
-  surface.coveredOctants = covering.coveredOctants;
-  surface.coveringCorners = covering.coveringCorners.size();
-  execution.checkpoint(0.5);
-  surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
-  execution.checkpoint(0.6);
-  const auto added = codesOf(labels.shell(), covering.coveringCorners);
-  const CrossingPlacer place(labels, crossings, views, added, options.coverOffset);
-  Phase contouring(execution, 0.6, 1.0);
-  makeSurface(labels, added, place, options.singlePrecision, surface, contouring);
+  Phase surfacing(execution, 0.1, 1.0);
+  const Octree& used = kept ? *kept : octree;
+  LocalHullSurface surface = options.mode == LocalHullMode::Thesis
+    ? thesisSurface(imperfect, used, views, options, surfacing)
+    : robustSurface(imperfect, used, views, options, surfacing);
+  surface.droppedOctants = dropped;
+  execution.progress(1.0);
   return surface;
 }
 
@@ -201,9 +333,16 @@ std::vector<LocalHull> classifyLocalHulls(const Mesh& imperfect, const Octree& o
   {
     return {};
   }
-  const SurfaceCrossings crossings = locateCrossings(imperfect, octree.lattice);
+  if (options.mode == LocalHullMode::Thesis)
+  {
+    Phase covering(execution, 0.0, 0.4);
+    const LocalHullSurface covered = coveredSurface(imperfect, octree, views, options, covering);
+    Phase hulling(execution, 0.4, 1.0);
+    return thesisHulls(covered.mesh, octree, options, hulling);
+  }
   CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
-  const LatticeLabels labels = makeLabels(octree, std::move(shell), views, crossings, execution);
+  const LatticeLabels labels = views ? LatticeLabels(octree, std::move(shell), *views, execution)
+                                     : LatticeLabels(octree, std::move(shell), locateCrossings(imperfect, octree.lattice));
   return localHulls(imperfect, labels, options.hulls, execution);
 }
 

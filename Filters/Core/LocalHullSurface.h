@@ -7,20 +7,44 @@
  */
 #pragma once
 
+#include "FieldCorrection.h"
+#include "HullChains.h"
 #include "LocalHulls.h"
 #include "Mesh.h"
 #include "Octree.h"
 #include "PreparedViews.h"
+#include "SilhouetteRepair.h"
+#include "SliceRegions.h"
+#include "ThinHulls.h"
 
 namespace silhouette
 {
 
+enum class LocalHullMode : int
+{
+  Robust = 0, ///< consistent labels, corrected by what the views agree on; every survivor covered
+  Thesis = 1  ///< one hull for each chain of slices, combined
+};
+
 struct LocalHullOptions
 {
+  LocalHullMode mode = LocalHullMode::Robust;
   bool fillCavities = true;   ///< label cavities inside; without it a cavity's wall is one more component
   double coverOffset = 0.03;  ///< in octants, 0.01 to 0.99: how far the surface stands off a covering corner
   int bridgeGap = 2;          ///< in octants, 0 or more: survivors' components no further apart are joined; larger joins more
   bool singlePrecision = false; ///< round points to float, and promise it for these
+  /**
+   * 0 to 1: islands, components of the survivors with fewer octants than this share of the largest one's, are given
+   * up and counted; 0 keeps all, larger drops larger ones.
+   */
+  double islandShare = 0.0;
+  bool repairSilhouettes = true; ///< Robust, with views: fill what a single view cuts deep and wide out of the object
+  bool thinHulls = true;         ///< Robust, with views: round thin parts into hulls of the balls that fit into them
+  SilhouetteRepairOptions repair;
+  FieldCorrectionOptions correction; ///< Robust, with views
+  ThinHullOptions thin;
+  SliceOptions slices; ///< Thesis
+  ChainOptions chains; ///< Thesis
   LocalHullsOptions hulls;
 };
 
@@ -34,6 +58,12 @@ struct LocalHullSurface
   std::uint64_t bridges = 0;         ///< joints between components of the survivors
   std::uint64_t cavitiesFilled = 0;  ///< cavities that were labelled inside
   std::uint64_t ignoredPoints = 0;   ///< points of the imperfect surface that lie on no lattice edge
+  std::uint64_t thinHulls = 0;       ///< hulls that thin parts were rounded into
+  std::uint64_t movedToHulls = 0;    ///< points moved for it
+  std::uint64_t droppedOctants = 0;  ///< survivors given up as islands
+  double deficit = 0.0;              ///< octants: the silhouettes' mean deficit before any correction; 0 without views
+  double alignment = 0.0;            ///< px, the mean length of the views' shifts; 0 where they were not shifted
+  std::uint64_t repairedPixels = 0;  ///< pixels that were filled into silhouettes
   std::uint64_t movedToMiddle = 0;   ///< points moved to the middle of their edge against a self-intersection
 };
 

@@ -44,28 +44,15 @@ double squaredDistanceToTriangle(const Point& x, const Point& a, const Point& b,
     squaredDistanceToSegment(x, c, a) });
 }
 
-/** The surface that is measured to. */
-struct Target
+const Mesh& checkedSurface(const Mesh& surface)
 {
-  explicit Target(const Mesh& surface)
-    : mesh(surface)
-    , tree(triangleBoxes(surface.points, surface.triangles))
+  checkMesh(surface);
+  if (surface.triangles.empty())
   {
+    throw InvalidInput("a mesh without triangles has no distance");
   }
-  double squaredDistance(const Point& x) const
-  {
-    return this->tree.nearest(x,
-      [&](std::int32_t i)
-      {
-        const Triangle& t = this->mesh.triangles[i];
-        return squaredDistanceToTriangle(
-          x, this->mesh.points[t[0]], this->mesh.points[t[1]], this->mesh.points[t[2]]);
-      });
-  }
-
-  const Mesh& mesh;
-  BoxTree tree;
-};
+  return surface;
+}
 
 /** Sums over samples: of areas, and of areas times distances; and the same with every sample's weight 1. */
 struct Sums
@@ -106,7 +93,7 @@ double subdivisions(const Point& a, const Point& b, const Point& c, double spaci
 }
 
 void sampleTriangle(
-  const Target& target, const Point& a, const Point& b, const Point& c, double spacing, Sums& sums)
+  const DistanceTarget& target, const Point& a, const Point& b, const Point& c, double spacing, Sums& sums)
 {
   const int n = int(subdivisions(a, b, c, spacing));
   const double area = (b - a).cross(c - a).norm() / 2.0 / (double(n) * n);
@@ -125,14 +112,9 @@ void sampleTriangle(
   }
 }
 
-void checkSampling(const Mesh& from, const Mesh& to, double spacing)
+void checkSampling(const Mesh& from, double spacing)
 {
-  checkMesh(from);
-  checkMesh(to);
-  if (from.triangles.empty() || to.triangles.empty())
-  {
-    throw InvalidInput("a mesh without triangles has no distance");
-  }
+  checkedSurface(from);
   if (!(spacing > 0.0))
   {
     throw InvalidInput("the spacing of samples is " + std::to_string(spacing) + ", not positive");
@@ -149,7 +131,7 @@ void checkSampling(const Mesh& from, const Mesh& to, double spacing)
 }
 
 /** The greatest squared distance of the corners that triangles use. */
-double greatestOfCorners(const Mesh& from, const Target& target, Execution& execution)
+double greatestOfCorners(const Mesh& from, const DistanceTarget& target, Execution& execution)
 {
   std::vector<double> squares(from.points.size(), 0.0);
   std::vector<std::uint8_t> used(from.points.size(), 0);
@@ -168,7 +150,7 @@ double greatestOfCorners(const Mesh& from, const Target& target, Execution& exec
   return *std::max_element(squares.begin(), squares.end());
 }
 
-Sums sampleAll(const Mesh& from, const Target& target, double spacing, Execution& execution)
+Sums sampleAll(const Mesh& from, const DistanceTarget& target, double spacing, Execution& execution)
 {
   // Summed block by block, so that no sum's order depends on how the loop is cut.
   std::vector<Sums> blocks((from.triangles.size() + Block - 1) / Block);
@@ -200,15 +182,30 @@ Sums sampleAll(const Mesh& from, const Target& target, double spacing, Execution
 
 } // namespace
 
-MeshDistance meshDistance(const Mesh& from, const Mesh& to, double spacing, Execution& execution)
+DistanceTarget::DistanceTarget(const Mesh& surface)
+  : Surface(checkedSurface(surface))
+  , Tree(triangleBoxes(surface.points, surface.triangles))
 {
-  checkSampling(from, to, spacing);
+}
+
+double DistanceTarget::squaredDistance(const Eigen::Vector3d& point) const
+{
+  return this->Tree.nearest(point,
+    [&](std::int32_t i)
+    {
+      const Triangle& t = this->Surface.triangles[i];
+      return squaredDistanceToTriangle(
+        point, this->Surface.points[t[0]], this->Surface.points[t[1]], this->Surface.points[t[2]]);
+    });
+}
+
+MeshDistance meshDistance(const Mesh& from, const DistanceTarget& to, double spacing, Execution& execution)
+{
+  checkSampling(from, spacing);
   execution.checkpoint(0.0);
-  const Target target(to);
-  execution.checkpoint(0.1);
-  const double cornersSquare = greatestOfCorners(from, target, execution);
-  Phase sampling(execution, 0.3, 1.0);
-  const Sums sums = sampleAll(from, target, spacing, sampling);
+  const double cornersSquare = greatestOfCorners(from, to, execution);
+  Phase sampling(execution, 0.2, 1.0);
+  const Sums sums = sampleAll(from, to, spacing, sampling);
   execution.progress(1.0);
   const int w = sums.weight[0] > 0.0 ? 0 : 1;
   MeshDistance result;
@@ -216,6 +213,15 @@ MeshDistance meshDistance(const Mesh& from, const Mesh& to, double spacing, Exec
   result.rms = std::sqrt(sums.square[w] / sums.weight[w]);
   result.maximum = std::sqrt(std::max(sums.greatestSquare, cornersSquare));
   return result;
+}
+
+MeshDistance meshDistance(const Mesh& from, const Mesh& to, double spacing, Execution& execution)
+{
+  checkSampling(from, spacing);
+  execution.checkpoint(0.0);
+  const DistanceTarget target(to);
+  Phase measuring(execution, 0.1, 1.0);
+  return meshDistance(from, target, spacing, measuring);
 }
 
 MeshComparison compareMeshes(const Mesh& mesh, const Mesh& truth, double spacing, Execution& execution)

@@ -5,6 +5,7 @@
  */
 #pragma once
 
+#include "BoxTree.h"
 #include "Execution.h"
 #include "Mesh.h"
 
@@ -30,6 +31,23 @@ struct MeshDistance
  * sample.
  */
 MeshDistance meshDistance(const Mesh& from, const Mesh& to, double spacing, Execution& execution);
+
+/** A surface made ready to be measured to, for those that several meshes are compared with. */
+class DistanceTarget
+{
+public:
+  /** `surface` is not copied and has to outlive this. Throws InvalidInput for an invalid or empty mesh. */
+  explicit DistanceTarget(const Mesh& surface);
+
+  double squaredDistance(const Eigen::Vector3d& point) const;
+
+private:
+  const Mesh& Surface;
+  BoxTree Tree;
+};
+
+/** The same distance to a surface made ready. */
+MeshDistance meshDistance(const Mesh& from, const DistanceTarget& to, double spacing, Execution& execution);
 
 /** Both directions. */
 struct MeshComparison

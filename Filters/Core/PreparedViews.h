@@ -60,6 +60,8 @@ struct PreparedView
   std::array<bool, 4> open{};          ///< abstains beyond: left, right, top, bottom
   std::array<int, 4> objectBox{};      ///< least and greatest column, least and greatest row of the object
 
+  /** The silhouette as a whole, top row first, for maps that are made of it; single pixels are asked below. */
+  const std::uint8_t* silhouette() const { return this->object.data(); }
   /** The vote of pixel (column, row), which may lie outside the image. */
   Vote pixelVote(int column, int row) const;
   /** What the pixels of the given inclusive ranges hold; ranges may reach outside. An empty range holds nothing. */

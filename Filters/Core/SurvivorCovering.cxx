@@ -25,14 +25,14 @@ enum class Effect : int
 struct Candidate
 {
   Effect effect = Effect::Otherwise;
-  int votes = -1;
+  float support = -1e30f;
   int covers = 0;
   std::uint32_t corner = 0xffffffffu;
 
   /** Smaller is better. */
-  std::tuple<int, int, int, std::uint32_t> rank() const
+  std::tuple<int, float, int, std::uint32_t> rank() const
   {
-    return { int(this->effect), -this->votes, -this->covers, this->corner };
+    return { int(this->effect), -this->support, -this->covers, this->corner };
   }
 };
 
@@ -75,7 +75,7 @@ private:
         this->Lost.push_back(cell);
       }
     }
-    this->Result.coveredOctants = this->Lost.size();
+    this->Result.coveredCells = this->Lost;
   }
 
   static LatticePoint neighbour(const LatticePoint& p, int n)
@@ -133,7 +133,7 @@ private:
     std::array<std::uint32_t, 8> cells;
     const int count = this->Labels.cellsAround(p, cells);
     candidate.corner = corner;
-    candidate.votes = this->Labels.votes()[corner];
+    candidate.support = this->Labels.support()[corner];
     candidate.effect = this->effectOf(p);
     candidate.covers = int(
       std::count_if(cells.begin(), cells.begin() + count, [&](std::uint32_t cell) { return !this->covered(cell); }));

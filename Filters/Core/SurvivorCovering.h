@@ -14,13 +14,13 @@ namespace silhouette
 /** What covering did. */
 struct CoveringResult
 {
-  std::uint64_t coveredOctants = 0;           ///< survivors that had no inside corner
+  std::vector<std::uint32_t> coveredCells;    ///< cells of the shell, survivors that had no inside corner; ascending
   std::vector<std::uint32_t> coveringCorners; ///< shell corners that were labelled inside, in that order
 };
 
 /**
  * Corners that change no topology (simple ones) come first, then those that join components, then those that found one,
- * and only where none of these is left any other; among equals the corner with most inside votes, then the one
+ * and only where none of these is left any other; among equals the corner with most support, then the one
  * that covers most octants, then the first in lattice order. The bridges' points, all of them corners of the
  * shell, are labelled inside at the end. Cost: linear in the lost octants.
  */

@@ -198,6 +198,33 @@ BinaryImage noisyMask(const BinaryImage& clean, const SyntheticCaptureOptions& o
   return flipPixels(mask, options.noisePixels, key(NoiseKind::Pixels));
 }
 
+void drawNoise(SyntheticView& view, const Camera& camera, const SyntheticCaptureOptions& options,
+               std::size_t number, bool cut)
+{
+  view.projection = reportedProjection(camera, options, number);
+  view.mask = noisyMask(view.cleanMask, options, number, cut);
+}
+
+/** Call makeView(v) for each view, as many at a time as there are threads. */
+template <typename MakeView>
+void forViews(std::size_t views, Execution& execution, MakeView&& makeView)
+{
+  const std::size_t batch = std::size_t(std::max(execution.threads(), 1));
+  for (std::size_t start = 0; start < views; start += batch)
+  {
+    execution.checkpoint(double(start) / double(views));
+    execution.forRanges(std::min(batch, views - start), 1,
+                        [&](std::size_t from, std::size_t to)
+                        {
+                          for (std::size_t v = start + from; v < start + to; ++v)
+                          {
+                            makeView(v);
+                          }
+                        });
+  }
+  execution.checkpoint(1.0);
+}
+
 } // namespace
 
 std::vector<Projection> syntheticCameras(const Mesh& truth, int views, int width, int height)
@@ -217,36 +244,43 @@ SyntheticCapture synthesizeCapture(const Mesh& truth, const SyntheticCaptureOpti
   validate(options);
   const std::vector<Camera> cameras = ringCameras(truth, options.views, options.width, options.height);
   const std::vector<bool> cut = blobViews(options);
-  const ShadingNormals normals = shadingNormals(truth);
+  const ShadingNormals normals = options.photographs ? shadingNormals(truth) : ShadingNormals();
   SyntheticCapture capture;
   capture.width = options.width;
   capture.height = options.height;
   capture.views.resize(options.views);
-  const auto makeView = [&](std::size_t v)
-  {
-    SyntheticView& view = capture.views[v];
-    view.name = viewName(v);
-    view.trueProjection = cameras[v].projection();
-    view.projection = reportedProjection(cameras[v], options, v);
-    view.cleanMask = renderSilhouette(truth, view.trueProjection, options.width, options.height);
-    view.mask = noisyMask(view.cleanMask, options, v, cut[v]);
-    view.photograph = shadePhotograph(truth, normals, view.trueProjection, view.cleanMask);
-  };
-  const std::size_t batch = std::size_t(std::max(execution.threads(), 1));
-  for (std::size_t first = 0; first < cameras.size(); first += batch)
-  {
-    execution.checkpoint(double(first) / double(cameras.size()));
-    execution.forRanges(std::min(batch, cameras.size() - first), 1,
-                        [&](std::size_t from, std::size_t to)
-                        {
-                          for (std::size_t v = first + from; v < first + to; ++v)
-                          {
-                            makeView(v);
-                          }
-                        });
-  }
-  execution.checkpoint(1.0);
+  forViews(cameras.size(), execution,
+           [&](std::size_t v)
+           {
+             SyntheticView& view = capture.views[v];
+             view.name = viewName(v);
+             view.trueProjection = cameras[v].projection();
+             view.cleanMask = renderSilhouette(truth, view.trueProjection, options.width, options.height);
+             drawNoise(view, cameras[v], options, v, cut[v]);
+             if (options.photographs)
+             {
+               view.photograph = shadePhotograph(truth, normals, view.trueProjection, view.cleanMask);
+             }
+           });
   return capture;
+}
+
+void redrawNoise(SyntheticCapture& capture, const Mesh& truth, const SyntheticCaptureOptions& options,
+                 Execution& execution)
+{
+  validate(options);
+  if (capture.views.size() != std::size_t(options.views) || capture.width != options.width ||
+      capture.height != options.height)
+  {
+    throw InvalidInput("the capture has " + std::to_string(capture.views.size()) + " views of " +
+                       std::to_string(capture.width) + " x " + std::to_string(capture.height) +
+                       " pixels, the options have " + std::to_string(options.views) + " of " +
+                       std::to_string(options.width) + " x " + std::to_string(options.height));
+  }
+  const std::vector<Camera> cameras = ringCameras(truth, options.views, options.width, options.height);
+  const std::vector<bool> cut = blobViews(options);
+  forViews(cameras.size(), execution,
+           [&](std::size_t v) { drawNoise(capture.views[v], cameras[v], options, v, cut[v]); });
 }
 
 } // namespace silhouette

@@ -39,6 +39,7 @@ struct SyntheticCaptureOptions
   double noisePixels = 0;   ///< share of each mask's pixels that flip, 0 to 1
   double noiseCamera = 0;   ///< px, standard deviation of the reported principal point, in u and v, 0 to 1e6
   double noiseRotation = 0; ///< degrees, standard deviation of the reported turn about each axis, 0 to 90
+  bool photographs = true;  ///< without them the photographs stay empty, which saves most of the time
 };
 
 struct SyntheticView
@@ -48,7 +49,8 @@ struct SyntheticView
   Projection trueProjection;            ///< what masks and photograph are rendered with
   BinaryImage mask;                     ///< with the noise
   BinaryImage cleanMask;                ///< renderSilhouette of the mesh
-  std::vector<std::uint8_t> photograph; ///< 3 * width * height bytes, red, green, blue, the top row first
+  std::vector<std::uint8_t> photograph; ///< 3 * width * height bytes, red, green, blue, the top row first;
+                                        ///< or none
 };
 
 struct SyntheticCapture
@@ -70,5 +72,14 @@ std::vector<Projection> syntheticCameras(const Mesh& truth, int views, int width
  */
 SyntheticCapture synthesizeCapture(const Mesh& truth, const SyntheticCaptureOptions& options,
                                    Execution& execution);
+
+/**
+ * Draw the noise of `options` anew in a capture of `truth` that synthesizeCapture made for as many views and
+ * pixels: clean masks and photographs stay, so that it costs the noise alone. The bytes are those of
+ * synthesizeCapture. Throws InvalidInput as it does, and where the capture's views or pixels are not those of
+ * the options; Cancelled.
+ */
+void redrawNoise(SyntheticCapture& capture, const Mesh& truth, const SyntheticCaptureOptions& options,
+                 Execution& execution);
 
 } // namespace silhouette

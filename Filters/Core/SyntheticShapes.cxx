@@ -285,6 +285,38 @@ private:
   std::vector<Tube> Tubes;
 };
 
+/** Ellipsoids side by side around an axis, melted together, and a tapering stalk that bends away from it. */
+class PumpkinField : public DistanceField
+{
+public:
+  double operator()(const Eigen::Vector3d& p) const override
+  {
+    const Eigen::Vector3d q = this->Upright * (p - Eigen::Vector3d(0.0, 0.0, -0.16));
+    double field = 1.0;
+    for (int i = 0; i < Lobes; ++i)
+    {
+      const double turn = 2.0 * Pi * i / Lobes;
+      const double larger = 1.0 + 0.05 * std::cos(turn) + 0.03 * std::sin(2.0 * turn);
+      const Eigen::Vector3d outward(std::cos(turn), std::sin(turn), 0.0);
+      const Eigen::Vector3d across(-outward.y(), outward.x(), 0.0);
+      const Eigen::Vector3d lobe((q.dot(outward) - 0.40) / 0.46, q.dot(across) / 0.25, q.z() / 0.56);
+      // Not the distance, but never more than it, and of its sign.
+      field = smoothMinimum(field, 0.25 * (lobe.norm() - larger), 0.03);
+    }
+    const Curve::Nearest near = this->Stalk.nearest(q, field + 0.3);
+    return smoothMinimum(field, near.distance - (0.10 - 0.03 * near.along), 0.05);
+  }
+
+  double steepness() const override { return 1.1; }
+
+private:
+  static constexpr int Lobes = 9;
+  /** Tilted, so that no ring of cameras around z sees the lobes alike. */
+  Eigen::Matrix3d Upright =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d(0.8, -0.6, 0.0)).toRotationMatrix();
+  Curve Stalk{{{0, 0, 0.2}, {0, 0, 0.45}, {0.02, 0.01, 0.75}, {0.16, 0.08, 0.98}, {0.36, 0.14, 1.04}}, 64};
+};
+
 /** Twelve points and twenty faces, the faces counter-clockwise seen from outside. */
 Mesh icosahedron()
 {
@@ -370,6 +402,16 @@ private:
   Mesh Result;
 };
 
+/** Each point moved along its ray from the origin to the pebble's surface. */
+Mesh pebble(Mesh mesh)
+{
+  for (Eigen::Vector3d& p : mesh.points)
+  {
+    p /= pebbleLevel(p);
+  }
+  return mesh;
+}
+
 /** `around` quadrangles around the axis, `across` around the tube, each cut in two. */
 Mesh torus(int around, int across)
 {
@@ -403,6 +445,24 @@ Eigen::Vector3d torusAxis()
   return Eigen::Vector3d(0.48, -0.36, 0.8); // of length 1
 }
 
+double pebbleLevel(const Eigen::Vector3d& p)
+{
+  static const Eigen::Matrix3d axes = (Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()) *
+                                       Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY()) *
+                                       Eigen::AngleAxisd(0.9, Eigen::Vector3d::UnitZ()))
+                                          .toRotationMatrix();
+  constexpr double exponent = 2.5; // rounder than a box, squarer than an ellipsoid
+  const double behind[] = {0.84, 0.70, 0.44};
+  const double ahead[] = {0.98, 0.62, 0.56};
+  const Eigen::Vector3d q = axes.transpose() * p;
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    sum += std::pow(std::abs(q[axis]) / (q[axis] < 0.0 ? behind : ahead)[axis], exponent);
+  }
+  return std::pow(sum, 1.0 / exponent);
+}
+
 Mesh syntheticShape(SyntheticShape shape, const SyntheticShapeOptions& options)
 {
   const double finer = options.refinement;
@@ -421,6 +481,10 @@ Mesh syntheticShape(SyntheticShape shape, const SyntheticShapeOptions& options)
     return torus(scaled(360), scaled(160));
   case SyntheticShape::Twig:
     return contourField(TwigField(), 2.0 / scaled(800));
+  case SyntheticShape::Pebble:
+    return pebble(GeodesicSphere()(scaled(64)));
+  case SyntheticShape::Pumpkin:
+    return contourField(PumpkinField(), 2.0 / scaled(180));
   }
   throw InvalidInput("synthetic shape " + std::to_string(int(shape)) + " is unknown");
 }

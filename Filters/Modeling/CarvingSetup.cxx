@@ -2,6 +2,8 @@
 #include "CarvingSetup.h"
 
 #include "AutomaticBounds.h"
+#include "Carving.h"
+#include "CarvingTolerance.h"
 #include "Error.h"
 #include "ProjectiveCameras.h"
 #include "ViewConversion.h"
@@ -227,6 +229,46 @@ std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice&
     warnings.push_back(std::move(projective));
   }
   return warnings;
+}
+
+CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings, bool automaticTolerance,
+                       const std::function<void(const std::string&)>& warn, Execution& execution)
+{
+  bool warned = false;
+  const Carve carveOnce = [&](const PreparedViews& used, int backgroundVotes, Execution& part)
+  {
+    Phase bounding(part, 0.0, 0.25);
+    LatticeSettings own = settings;
+    own.backgroundVotes = backgroundVotes;
+    const Lattice lattice = makeLattice(used, own, bounding);
+    for (const std::string& warning : warned ? std::vector<std::string>()
+                                             : viewWarnings(used, lattice, settings.automaticBounds))
+    {
+      warn(warning);
+    }
+    warned = true;
+    Phase carving(part, 0.25, 1.0);
+    CarveOptions options;
+    options.backgroundVotes = backgroundVotes;
+    return carve(LatticeViews(used, lattice), options, carving);
+  };
+  CarvedViews carved;
+  if (!automaticTolerance)
+  {
+    carved.octree = carveOnce(*views, settings.backgroundVotes, execution);
+    carved.views = views;
+    return carved;
+  }
+  CarvingToleranceOptions options;
+  options.backgroundVotes = settings.backgroundVotes;
+  TolerantCarving found = carveTolerantly(views, carveOnce, options, execution);
+  carved.octree = std::move(found.octree);
+  carved.views = std::move(found.views);
+  carved.dilatedViews = std::move(found.dilatedViews);
+  carved.dilation = found.dilation;
+  carved.uncovered = found.uncovered;
+  carved.strictUncovered = found.strictUncovered;
+  return carved;
 }
 
 std::string cutByBoxWarning(const Octree& octree, const LatticeViews& views)

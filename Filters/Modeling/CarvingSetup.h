@@ -6,9 +6,11 @@
 #pragma once
 
 #include "Octree.h"
-#include "PreparedViews.h"
+#include "PreparedViewsSharing.h"
 
 #include <array>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,27 @@ Lattice makeLattice(const PreparedViews& views, const LatticeSettings& settings,
 /** Warnings that need no octree; each names the view. */
 std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice& lattice,
                                       bool automaticBounds);
+
+/** An octree with what it was carved from. */
+struct CarvedViews
+{
+  Octree octree;
+  SharedViews views;                     ///< those given, or dilated
+  std::vector<View> dilatedViews;        ///< empty where nothing was dilated
+  int dilation = 0;                      ///< px
+  std::optional<double> uncovered;       ///< share of the silhouettes, where it was measured
+  /** the same with the settings' background votes and without dilation */
+  std::optional<double> strictUncovered;
+};
+
+/**
+ * Find the lattice and carve. With `automaticTolerance`, settings.backgroundVotes are the least, and more
+ * votes, or dilated silhouettes, are taken where the silhouettes are not covered (CarvingTolerance.h). What
+ * views and lattice deserve as warnings goes to `warn`, before carving: where nothing survives, these say
+ * why.
+ */
+CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings, bool automaticTolerance,
+                       const std::function<void(const std::string&)>& warn, Execution& execution);
 
 /** A warning where the object reaches through the root cube's border; empty where it does not. */
 std::string cutByBoxWarning(const Octree& octree, const LatticeViews& views);

@@ -57,6 +57,10 @@ void storeSurface(const silhouette::LocalHullSurface& found, const MeshOutput& o
   setField(surface, "CavitiesFilled", found.cavitiesFilled);
   setField(surface, "IgnoredPoints", found.ignoredPoints);
   setField(surface, "MovedToMiddle", found.movedToMiddle);
+  setField(surface, "DroppedOctants", found.droppedOctants);
+  setField(surface, "Deficit", found.deficit);
+  setField(surface, "Alignment", found.alignment);
+  setField(surface, "RepairedPixels", found.repairedPixels);
 }
 
 void storeHulls(const std::vector<silhouette::LocalHull>& found, const MeshOutput& output, vtkPolyData* hulls)
@@ -86,15 +90,66 @@ int requestedPort(vtkInformation* request)
 
 } // namespace
 
+/** The settings as the core has them, and back. */
+class vtkLocalHullSurfacer::vtkInternals
+{
+public:
+  /** Call `pair(setting, option)` for every one that has the same type in both. */
+  template <typename Surfacer, typename Options, typename Pair>
+  static void forSettings(Surfacer& self, Options& options, const Pair& pair)
+  {
+    pair(self.FillCavities, options.fillCavities);
+    pair(self.CoverOffset, options.coverOffset);
+    pair(self.BridgeGap, options.bridgeGap);
+    pair(self.HullTolerance, options.hulls.tolerance);
+    pair(self.SeedBlock, options.hulls.seedBlock);
+    pair(self.IslandShare, options.islandShare);
+    pair(self.RepairSilhouettes, options.repairSilhouettes);
+    pair(self.AlignViews, options.correction.alignViews);
+    pair(self.CorrectField, options.correction.moveSurface);
+    pair(self.ThinHulls, options.thinHulls);
+    pair(self.SpeckleArea, options.repair.speckleArea);
+    pair(self.SpeckleShare, options.repair.speckleShare);
+    pair(self.BlobDepth, options.repair.blobDepth);
+    pair(self.BlobChord, options.repair.blobChord);
+    pair(self.BlobCorners, options.repair.blobCorners);
+    pair(self.SmallestDeficit, options.correction.smallestDeficit);
+    pair(self.Smoothing, options.correction.smoothing);
+    pair(self.GreatestSmoothing, options.correction.greatestSmoothing);
+    pair(self.Gentleness, options.correction.gentleness);
+    pair(self.Alignments, options.correction.alignments);
+    pair(self.ContourReach, options.correction.contourReach);
+    pair(self.ThinSmallestRadius, options.thin.smallestRadius);
+    pair(self.ThinLargestRadius, options.thin.largestRadius);
+    pair(self.ThinReach, options.thin.reach);
+    pair(self.SliceAxis, options.slices.axis);
+    pair(self.SliceTolerance, options.slices.tolerance);
+    pair(self.ChainTolerance, options.chains.tolerance);
+    pair(self.ChainOverlap, options.chains.overlap);
+  }
+
+  static silhouette::LocalHullOptions options(const vtkLocalHullSurfacer& self)
+  {
+    silhouette::LocalHullOptions options;
+    options.mode = static_cast<silhouette::LocalHullMode>(self.Mode);
+    options.singlePrecision = self.OutputPointsPrecision == SINGLE_PRECISION;
+    forSettings(self, options, [](const auto& setting, auto& option) { option = setting; });
+    return options;
+  }
+
+  static void setDefaults(vtkLocalHullSurfacer& self)
+  {
+    const silhouette::LocalHullOptions options;
+    self.Mode = static_cast<int>(options.mode);
+    forSettings(self, options, [](auto& setting, const auto& option) { setting = option; });
+  }
+};
+
 vtkStandardNewMacro(vtkLocalHullSurfacer);
 
 vtkLocalHullSurfacer::vtkLocalHullSurfacer()
-    : FillCavities(silhouette::LocalHullOptions().fillCavities),
-      CoverOffset(silhouette::LocalHullOptions().coverOffset),
-      BridgeGap(silhouette::LocalHullOptions().bridgeGap),
-      HullTolerance(silhouette::LocalHullOptions().hulls.tolerance),
-      SeedBlock(silhouette::LocalHullOptions().hulls.seedBlock)
 {
+  vtkInternals::setDefaults(*this);
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
 }
@@ -139,13 +194,7 @@ int vtkLocalHullSurfacer::RequestData(vtkInformation* request, vtkInformationVec
     {
       return;
     }
-    silhouette::LocalHullOptions options;
-    options.fillCavities = this->FillCavities;
-    options.coverOffset = this->CoverOffset;
-    options.singlePrecision = this->OutputPointsPrecision == SINGLE_PRECISION;
-    options.bridgeGap = this->BridgeGap;
-    options.hulls.tolerance = this->HullTolerance;
-    options.hulls.seedBlock = this->SeedBlock;
+    const silhouette::LocalHullOptions options = vtkInternals::options(*this);
     silhouette::Phase reading(execution, 0.0, 0.1);
     vtkPartitionedDataSetCollection* collection = vtkPartitionedDataSetCollection::GetData(inputs[2]);
     const Inputs in(vtkPolyData::GetData(inputs[0]), grid, collection, reading);
@@ -172,11 +221,35 @@ int vtkLocalHullSurfacer::RequestData(vtkInformation* request, vtkInformationVec
 void vtkLocalHullSurfacer::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Mode: " << (this->Mode == THESIS ? "Thesis" : "Robust") << "\n";
   os << indent << "FillCavities: " << (this->FillCavities ? "On" : "Off") << "\n";
   os << indent << "CoverOffset: " << this->CoverOffset << "\n";
   os << indent << "BridgeGap: " << this->BridgeGap << "\n";
   os << indent << "HullTolerance: " << this->HullTolerance << "\n";
   os << indent << "SeedBlock: " << this->SeedBlock << "\n";
+  os << indent << "IslandShare: " << this->IslandShare << "\n";
+  os << indent << "RepairSilhouettes: " << (this->RepairSilhouettes ? "On" : "Off") << "\n";
+  os << indent << "AlignViews: " << (this->AlignViews ? "On" : "Off") << "\n";
+  os << indent << "CorrectField: " << (this->CorrectField ? "On" : "Off") << "\n";
+  os << indent << "ThinHulls: " << (this->ThinHulls ? "On" : "Off") << "\n";
+  os << indent << "SpeckleArea: " << this->SpeckleArea << "\n";
+  os << indent << "SpeckleShare: " << this->SpeckleShare << "\n";
+  os << indent << "BlobDepth: " << this->BlobDepth << "\n";
+  os << indent << "BlobChord: " << this->BlobChord << "\n";
+  os << indent << "BlobCorners: " << this->BlobCorners << "\n";
+  os << indent << "SmallestDeficit: " << this->SmallestDeficit << "\n";
+  os << indent << "Smoothing: " << this->Smoothing << "\n";
+  os << indent << "GreatestSmoothing: " << this->GreatestSmoothing << "\n";
+  os << indent << "Gentleness: " << this->Gentleness << "\n";
+  os << indent << "Alignments: " << this->Alignments << "\n";
+  os << indent << "ContourReach: " << this->ContourReach << "\n";
+  os << indent << "ThinSmallestRadius: " << this->ThinSmallestRadius << "\n";
+  os << indent << "ThinLargestRadius: " << this->ThinLargestRadius << "\n";
+  os << indent << "ThinReach: " << this->ThinReach << "\n";
+  os << indent << "SliceAxis: " << this->SliceAxis << "\n";
+  os << indent << "SliceTolerance: " << this->SliceTolerance << "\n";
+  os << indent << "ChainTolerance: " << this->ChainTolerance << "\n";
+  os << indent << "ChainOverlap: " << this->ChainOverlap << "\n";
   os << indent << "GenerateNormals: " << (this->GenerateNormals ? "On" : "Off") << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
 }

@@ -19,6 +19,10 @@
  * | | | field `Bridges` | 64-bit unsigned, 1 | joints between components of the survivors |
  * | | | field `CavitiesFilled` | 64-bit unsigned, 1 | cavities labelled inside |
  * | | | field `IgnoredPoints` | 64-bit unsigned, 1 | input points that lie on no lattice edge |
+ * | | | field `DroppedOctants` | 64-bit unsigned, 1 | survivors given up as islands, in octants of the last generation's size |
+ * | | | field `Deficit` | double, 1 | the silhouettes' mean deficit before any correction, in leaf octants; 0 without views |
+ * | | | field `Alignment` | double, 1 | mean length of the views' shifts, in pixels; 0 where they were not shifted |
+ * | | | field `RepairedPixels` | 64-bit unsigned, 1 | pixels filled into silhouettes |
  * | | | field `MovedToMiddle` | 64-bit unsigned, 1 | points moved to the middle of their edge against a self-intersection |
  * | output 1 | vtkPolyData, triangles | cells `HullId` | int, 1 | the local hulls, each a closed convex part |
  *
@@ -29,9 +33,12 @@
  * is connected to the second output. Update() alone leaves that output empty, and asking for it later does
  * not compute the surface again.
  *
- * Steps: a globally consistent inside or outside label for each lattice corner; every survivor covered,
- * pieces joined; the marching-cubes table over all mixed cells; crossings from the surface where it has them,
- * else from the views, else where the covering asks.
+ * Steps in Robust mode: islands given up; silhouettes repaired and aligned; a globally consistent inside or
+ * outside label for each lattice corner, corrected by what the views agree on; every survivor covered, pieces
+ * joined; the marching-cubes table over all mixed cells; crossings from the surface where it has them, else
+ * from the views, else where the covering asks; thin parts made round. In Thesis mode: the sliced volume's
+ * convex parts, chains of them, one convex hull for each chain, and their union on the lattice. The promise
+ * holds in both; without islands given up, it is for every survivor, else for those that are kept.
  *
  * Cost: proportional to the octants of the last generation; memory: about 200 bytes for each.
  *
@@ -60,6 +67,13 @@ public:
   vtkTypeMacro(vtkLocalHullSurfacer, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /** How the surface is made. */
+  enum Modes
+  {
+    ROBUST = 0, ///< consistent labels, corrected by what the views agree on; every survivor covered
+    THESIS = 1  ///< one hull for each chain of slices, combined
+  };
+
   ///@{
   /**
    * Whether to fill cavities, so that each component is one closed shell. Default on; without it a cavity's
@@ -81,8 +95,8 @@ public:
 
   ///@{
   /**
-   * Survivors' components that are no further apart than this are joined; leaf octants, at least 0, default 2. Larger
-   * joins more, so that a thin part that the carving broke stays in one piece.
+   * Survivors' components that are no further apart than this are joined; leaf octants, at least 0, default
+   * 2. Larger joins more, so that a thin part that the carving broke stays in one piece.
    */
   vtkSetMacro(BridgeGap, int);
   vtkGetMacro(BridgeGap, int);
@@ -90,8 +104,232 @@ public:
 
   ///@{
   /**
-   * How deep an outside corner of the lattice may lie in a local hull; leaf octants, at least 0, default 0.5. Only for
-   * the second output: larger gives fewer and larger hulls, which bridge more of a concavity.
+   * How the surface is made: ROBUST (default), consistent labels corrected by what the views agree on;
+   * THESIS, one convex hull for each chain of slices, combined. The second output gives the hulls of the same
+   * mode.
+   */
+  vtkSetClampMacro(Mode, int, ROBUST, THESIS);
+  vtkGetMacro(Mode, int);
+  void SetModeToRobust() { this->SetMode(ROBUST); }
+  void SetModeToThesis() { this->SetMode(THESIS); }
+  ///@}
+
+  ///@{
+  /**
+   * Islands, components of the survivors (26-neighbourhood) with fewer octants than this share of the largest
+   * one's, are given up and counted, `DroppedOctants`; 0 to 1, default 0, which keeps all. Larger gives up
+   * larger ones.
+   */
+  vtkSetMacro(IslandShare, double);
+  vtkGetMacro(IslandShare, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to fill, in silhouettes, speckles and what a single view cuts deep and wide out of the object.
+   * Default on. Only in Robust mode, with views.
+   */
+  vtkSetMacro(RepairSilhouettes, bool);
+  vtkGetMacro(RepairSilhouettes, bool);
+  vtkBooleanMacro(RepairSilhouettes, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to shift views against an error of their cameras where one is measured. Default on. Only in
+   * Robust mode, with views.
+   */
+  vtkSetMacro(AlignViews, bool);
+  vtkGetMacro(AlignViews, bool);
+  vtkBooleanMacro(AlignViews, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to move the surface to where the views agree on average, where noise has made silhouettes too
+   * small. Default on. Only in Robust mode, with views.
+   */
+  vtkSetMacro(CorrectField, bool);
+  vtkGetMacro(CorrectField, bool);
+  vtkBooleanMacro(CorrectField, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to round parts thinner than an octant into hulls of the balls that fit into the silhouettes.
+   * Default on. Only in Robust mode, with views.
+   */
+  vtkSetMacro(ThinHulls, bool);
+  vtkGetMacro(ThinHulls, bool);
+  vtkBooleanMacro(ThinHulls, bool);
+  ///@}
+
+  ///@{
+  /**
+   * RepairSilhouettes: the largest area of a speckle, background that the object encloses or object that
+   * background encloses; squared leaf octants, at least 0, default 0.5. Larger takes larger ones.
+   */
+  vtkSetMacro(SpeckleArea, double);
+  vtkGetMacro(SpeckleArea, double);
+  ///@}
+
+  ///@{
+  /**
+   * RepairSilhouettes: speckles are left alone where they are fewer than this share of the object's pixels; 0
+   * to 1, default 0.0001. Larger repairs less.
+   */
+  vtkSetMacro(SpeckleShare, double);
+  vtkGetMacro(SpeckleShare, double);
+  ///@}
+
+  ///@{
+  /**
+   * RepairSilhouettes: how deep in one view's background a corner lies that this view alone rejects; leaf
+   * octants, at least 0, default 1. Larger finds fewer blobs.
+   */
+  vtkSetMacro(BlobDepth, double);
+  vtkGetMacro(BlobDepth, double);
+  ///@}
+
+  ///@{
+  /**
+   * RepairSilhouettes: the mean depth, along the view, of what it alone cuts away; share of the object's
+   * extent, 0 to 1, default 0.09. Larger finds fewer blobs.
+   */
+  vtkSetMacro(BlobChord, double);
+  vtkGetMacro(BlobChord, double);
+  ///@}
+
+  ///@{
+  /**
+   * RepairSilhouettes: the least number of corners that a blob rejects; at least 1, default 8. Larger finds
+   * fewer blobs.
+   */
+  vtkSetMacro(BlobCorners, int);
+  vtkGetMacro(BlobCorners, int);
+  ///@}
+
+  ///@{
+  /**
+   * CorrectField: silhouettes whose deficit is at most this are taken as they are; leaf octants, at least 0,
+   * default 0.03. Larger corrects less.
+   */
+  vtkSetMacro(SmallestDeficit, double);
+  vtkGetMacro(SmallestDeficit, double);
+  ///@}
+
+  ///@{
+  /**
+   * CorrectField: standard deviation of the field's smoothing, for each octant of deficit; leaf octants, at
+   * least 0, default 2.5. Larger is smoother.
+   */
+  vtkSetMacro(Smoothing, double);
+  vtkGetMacro(Smoothing, double);
+  ///@}
+
+  ///@{
+  /**
+   * CorrectField: the smoothing's largest standard deviation at depth 7, in proportion to 2^depth for others;
+   * leaf octants, at least 0, default 2. Larger is smoother where the silhouettes are worst.
+   */
+  vtkSetMacro(GreatestSmoothing, double);
+  vtkGetMacro(GreatestSmoothing, double);
+  ///@}
+
+  ///@{
+  /**
+   * CorrectField: the most that smoothing changes the field, for each octant of deficit, so that thin parts
+   * stay; leaf octants, at least 0, default 1.5. Larger smooths more.
+   */
+  vtkSetMacro(Gentleness, double);
+  vtkGetMacro(Gentleness, double);
+  ///@}
+
+  ///@{
+  /**
+   * AlignViews: rounds of shifting, at least 1, default 2. Larger comes closer and costs in proportion.
+   */
+  vtkSetMacro(Alignments, int);
+  vtkGetMacro(Alignments, int);
+  ///@}
+
+  ///@{
+  /**
+   * CorrectField: views whose contour passes a point within about this distance are heard there; at depth 7,
+   * in proportion to 2^depth for others; leaf octants, above 0, default 0.6. Larger averages more views.
+   */
+  vtkSetMacro(ContourReach, double);
+  vtkGetMacro(ContourReach, double);
+  ///@}
+
+  ///@{
+  /**
+   * ThinHulls: the least radius of a ball; leaf octants, above 0, default 0.12. Larger makes thinner parts
+   * fatter.
+   */
+  vtkSetMacro(ThinSmallestRadius, double);
+  vtkGetMacro(ThinSmallestRadius, double);
+  ///@}
+
+  ///@{
+  /**
+   * ThinHulls: the largest radius of a ball; leaf octants, at least ThinSmallestRadius, default 0.5. Larger
+   * lets balls fill more of their octant.
+   */
+  vtkSetMacro(ThinLargestRadius, double);
+  vtkGetMacro(ThinLargestRadius, double);
+  ///@}
+
+  ///@{
+  /**
+   * ThinHulls: how far a point moves at most; leaf octants, 0 to 1, default 0.9. Larger follows the balls
+   * further; 0 moves none.
+   */
+  vtkSetMacro(ThinReach, double);
+  vtkGetMacro(ThinReach, double);
+  ///@}
+
+  ///@{
+  /**
+   * Thesis mode: slices are perpendicular to x, y or z for 0, 1 or 2; -1 (default): the axis with the fewest
+   * parts a slice.
+   */
+  vtkSetMacro(SliceAxis, int);
+  vtkGetMacro(SliceAxis, int);
+  ///@}
+
+  ///@{
+  /**
+   * Thesis mode: how deep a background cell's centre may lie in the hull of a slice's part; leaf octants, at
+   * least 0, default 0.5. Larger gives fewer parts, which bridge more of a concavity.
+   */
+  vtkSetMacro(SliceTolerance, double);
+  vtkGetMacro(SliceTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Thesis mode: how deep below its hull a chain's surface may lie; leaf octants, at least 0, default 0.5.
+   * Larger gives fewer and larger hulls, which bridge more of a concavity.
+   */
+  vtkSetMacro(ChainTolerance, double);
+  vtkGetMacro(ChainTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Thesis mode: how much of the smaller of two parts in neighbouring slices the other must overlap for them
+   * to be chained; share, above 0 to 1, default 0.5. Larger chains less.
+   */
+  vtkSetMacro(ChainOverlap, double);
+  vtkGetMacro(ChainOverlap, double);
+  ///@}
+
+  ///@{
+  /**
+   * How deep an outside corner of the lattice may lie in a local hull; leaf octants, at least 0, default 0.5.
+   * Only for the second output in Robust mode: larger gives fewer and larger hulls, which bridge more of a
+   * concavity.
    */
   vtkSetMacro(HullTolerance, double);
   vtkGetMacro(HullTolerance, double);
@@ -100,7 +338,7 @@ public:
   ///@{
   /**
    * Edge of the blocks that the hulls' seeds lie in, leaf octants, at least 1, default 4. Only for the second
-   * output: larger gives fewer seeds and hulls that keep less detail, sooner.
+   * output in Robust mode: larger gives fewer seeds and hulls that keep less detail, sooner.
    */
   vtkSetMacro(SeedBlock, int);
   vtkGetMacro(SeedBlock, int);
@@ -150,12 +388,38 @@ protected:
   int BridgeGap;
   double HullTolerance;
   int SeedBlock;
+  int Mode;
+  double IslandShare;
+  bool RepairSilhouettes;
+  bool AlignViews;
+  bool CorrectField;
+  bool ThinHulls;
+  double SpeckleArea;
+  double SpeckleShare;
+  double BlobDepth;
+  double BlobChord;
+  int BlobCorners;
+  double SmallestDeficit;
+  double Smoothing;
+  double GreatestSmoothing;
+  double Gentleness;
+  int Alignments;
+  double ContourReach;
+  double ThinSmallestRadius;
+  double ThinLargestRadius;
+  double ThinReach;
+  int SliceAxis;
+  double SliceTolerance;
+  double ChainTolerance;
+  double ChainOverlap;
   bool GenerateNormals = false;
   int OutputPointsPrecision = DOUBLE_PRECISION;
 
 private:
   vtkLocalHullSurfacer(const vtkLocalHullSurfacer&) = delete;
   void operator=(const vtkLocalHullSurfacer&) = delete;
+
+  class vtkInternals;
 };
 
 #endif

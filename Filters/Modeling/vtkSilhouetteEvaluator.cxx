@@ -5,6 +5,7 @@
 #include "FieldValues.h"
 #include "MeshConversion.h"
 #include "OctreeConversion.h"
+#include "SurvivorIslands.h"
 #include "ViewConversion.h"
 #include "vtkSilhouetteExecution.h"
 
@@ -77,8 +78,11 @@ int vtkSilhouetteEvaluator::RequestData(vtkInformation*, vtkInformationVector** 
     double spacing = this->SampleSpacing;
     if (grid)
     {
-      const silhouette::Octree octree = octreeOf(grid);
-      silhouette::Phase covering(execution, 0.6, 0.7);
+      silhouette::Phase dropping(execution, 0.6, 0.65);
+      std::uint64_t dropped = 0;
+      const silhouette::Octree octree =
+          silhouette::dropIslands(octreeOf(grid), this->IslandShare, dropped, dropping);
+      silhouette::Phase covering(execution, 0.65, 0.7);
       setField(table, "LostSurface", std::uint64_t(silhouette::lostSurvivors(octree, mesh, covering)));
       setField(table, "LeafEdge", octree.lattice.leafEdge());
       spacing = spacing == 0.0 ? octree.lattice.leafEdge() : spacing;
@@ -99,5 +103,6 @@ int vtkSilhouetteEvaluator::RequestData(vtkInformation*, vtkInformationVector** 
 void vtkSilhouetteEvaluator::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "IslandShare: " << this->IslandShare << "\n";
   os << indent << "SampleSpacing: " << this->SampleSpacing << "\n";
 }

@@ -4,6 +4,7 @@
 #include "AutomaticBounds.h"
 #include "Carving.h"
 #include "CarvingSetup.h"
+#include "FieldValues.h"
 #include "OctreeConversion.h"
 #include "PreparedViewsSharing.h"
 #include "ViewConversion.h"
@@ -43,6 +44,34 @@ public:
                                      silhouetteViews(this->views(input)), options, execution);
   }
 };
+
+namespace
+{
+
+/** The views that were used, as VTK carries them. */
+void storeUsed(const CarvedViews& carved, const std::vector<ImageView>& given,
+               vtkPartitionedDataSetCollection* output)
+{
+  std::vector<ImageView> dilated;
+  for (const silhouette::View& view : carved.dilatedViews)
+  {
+    dilated.push_back(imageOf(view));
+  }
+  storeViews(dilated.empty() ? given : dilated, output);
+  attachPreparedViews(output, carved.views);
+}
+
+void storeTolerance(const CarvedViews& carved, vtkHyperTreeGrid* grid)
+{
+  setField(grid, "Dilation", carved.dilation);
+  if (carved.uncovered && carved.strictUncovered)
+  {
+    setField(grid, "UncoveredShare", *carved.uncovered);
+    setField(grid, "StrictUncoveredShare", *carved.strictUncovered);
+  }
+}
+
+} // namespace
 
 vtkStandardNewMacro(vtkSilhouetteOctreeSource);
 
@@ -142,44 +171,36 @@ int vtkSilhouetteOctreeSource::RequestData(vtkInformation*, vtkInformationVector
   vtkHyperTreeGrid* grid = vtkHyperTreeGrid::GetData(outputs, 0);
   vtkPartitionedDataSetCollection* viewsOut = vtkPartitionedDataSetCollection::GetData(outputs, 1);
 
-  const auto carveViews = [&](vtkSilhouetteExecution& execution)
+  const auto grow = [&](vtkSilhouetteExecution& execution)
   {
     silhouette::Phase preparing(execution, 0.0, 0.1);
     silhouette::ViewOptions viewOptions;
     viewOptions.outside = static_cast<silhouette::OutsidePolicy>(this->OutsidePolicy);
     const SharedViews views = this->Internals->prepare(input, viewOptions, preparing);
 
-    silhouette::Phase bounding(execution, 0.1, 0.3);
+    silhouette::Phase carving(execution, 0.1, 0.95);
     LatticeSettings settings;
     settings.depth = this->Depth;
     settings.leafEdge = this->LeafEdge;
     settings.automaticBounds = this->AutomaticBounds;
     std::copy_n(this->Bounds, 6, settings.bounds.begin());
     settings.backgroundVotes = this->BackgroundVotes;
-    const silhouette::Lattice lattice = makeLattice(*views, settings, bounding);
-    // Before carving: where nothing survives, these say why.
-    for (const std::string& warning : viewWarnings(*views, lattice, this->AutomaticBounds))
-    {
-      vtkWarningMacro(<< warning);
-    }
-
-    silhouette::Phase carving(execution, 0.3, 0.95);
-    const silhouette::LatticeViews latticeViews(*views, lattice);
-    silhouette::CarveOptions options;
-    options.backgroundVotes = this->BackgroundVotes;
-    const silhouette::Octree octree = silhouette::carve(latticeViews, options, carving);
-    const std::string cut = cutByBoxWarning(octree, latticeViews);
+    const auto warn = [this](const std::string& text)
+    { vtkWarningMacro(<< text); };
+    const CarvedViews carved = carveViews(views, settings, this->AutomaticTolerance, warn, carving);
+    const std::string cut =
+        cutByBoxWarning(carved.octree, silhouette::LatticeViews(*carved.views, carved.octree.lattice));
     if (!cut.empty())
     {
-      vtkWarningMacro(<< cut);
+      warn(cut);
     }
 
-    storeOctree(octree, grid);
-    storeViews(this->Internals->views(input), viewsOut);
-    attachPreparedViews(viewsOut, views);
+    storeOctree(carved.octree, grid);
+    storeTolerance(carved, grid);
+    storeUsed(carved, this->Internals->views(input), viewsOut);
     execution.progress(1.0);
   };
-  return runFilter(this, outputs, carveViews);
+  return runFilter(this, outputs, grow);
 }
 
 void vtkSilhouetteOctreeSource::PrintSelf(ostream& os, vtkIndent indent)
@@ -192,6 +213,7 @@ void vtkSilhouetteOctreeSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Bounds: (" << this->Bounds[0] << ", " << this->Bounds[1] << ", " << this->Bounds[2] << ", "
      << this->Bounds[3] << ", " << this->Bounds[4] << ", " << this->Bounds[5] << ")\n";
   os << indent << "BackgroundVotes: " << this->BackgroundVotes << "\n";
+  os << indent << "AutomaticTolerance: " << (this->AutomaticTolerance ? "On" : "Off") << "\n";
   os << indent << "OutsidePolicy: " << policies[this->OutsidePolicy] << "\n";
   os << indent << "AddedViews: " << this->Internals->Added.size() << "\n";
   for (std::size_t i = 0; i < this->Internals->Added.size(); ++i)

@@ -19,7 +19,9 @@
  * | | | field `ViewsFingerprint`, `OctantsTested`, `ViewTests` | 64-bit unsigned, 1 | names the views; counts of the work |
  * | | | field `InsideOctants`, `IntersectionOctants` | 64-bit unsigned, 1 | inside octants of all generations, intersection octants of the last |
  * | | | field `CarvedByView` | double, one a view | share of the root cube that the view carved |
- * | output 1 | vtkPartitionedDataSetCollection | as the input | | the views used, prepared: filters further down do no work on them twice |
+ * | | | field `Dilation` | int, 1 | pixels by which the silhouettes were dilated; 0 without AutomaticTolerance |
+ * | | | field `UncoveredShare`, `StrictUncoveredShare` | double, 1 | with AutomaticTolerance: share of the silhouettes' pixels, mean over the views, that no octant covers, of this octree and of one with BackgroundVotes and without dilation |
+ * | output 1 | vtkPartitionedDataSetCollection | as the input | | the views used, prepared: filters further down do no work on them twice; dilated ones where `Dilation` is above 0 |
  *
  * A matrix P maps a world point to a pixel, w (u, v, 1) = P (X, Y, Z, 1), with w > 0 in front of the camera,
  * u to the right, v down, the centre of the top-left pixel at (0, 0); the images are in VTK's own order,
@@ -138,6 +140,20 @@ public:
 
   ///@{
   /**
+   * Whether to look if the octree covers the silhouettes, and where it does not, because parts thinner than
+   * the noise were cut, to carve with the least tolerance that covers them: background votes from
+   * BackgroundVotes up to a tenth of the views, and if these do not do it, silhouettes dilated by up to half
+   * an octant besides. Default off. On, the octree's field `BackgroundVotes` says what was taken: a
+   * vtkVotingMarchingCubes further down needs the share that this leaves, (views - votes) / views. Clean
+   * silhouettes are carved as with off, with one measure more; others take three to ten carves.
+   */
+  vtkSetMacro(AutomaticTolerance, bool);
+  vtkGetMacro(AutomaticTolerance, bool);
+  vtkBooleanMacro(AutomaticTolerance, bool);
+  ///@}
+
+  ///@{
+  /**
    * What a view says of points outside its image: BORDER (default), UNKNOWN or BACKGROUND. BACKGROUND carves
    * most, UNKNOWN least.
    */
@@ -176,6 +192,7 @@ protected:
   bool AutomaticBounds = true;
   double Bounds[6] = {-1.0, 1.0, -1.0, 1.0, -1.0, 1.0};
   int BackgroundVotes;
+  bool AutomaticTolerance = false;
   int OutsidePolicy;
 
 private:

@@ -138,7 +138,7 @@ int vtkSyntheticCaptureSource::RequestData(vtkInformation*, vtkInformationVector
 void vtkSyntheticCaptureSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const char* const shapes[] = {"Jug", "Sphere", "Torus", "Twig"};
+  const char* const shapes[] = {"Jug", "Sphere", "Torus", "Twig", "Pebble", "Pumpkin"};
   os << indent << "Shape: " << shapes[this->Shape] << "\n";
   os << indent << "Refinement: " << this->Refinement << "\n";
   os << indent << "NumberOfViews: " << this->NumberOfViews << "\n";

@@ -51,17 +51,21 @@ public:
     JUG = 0,    ///< a jug with a handle: genus 1, concave, thin parts
     SPHERE = 1, ///< of radius 0.9
     TORUS = 2,  ///< of radii 0.6 and 0.25, tilted
-    TWIG = 3    ///< a bare twig of thin tubes
+    TWIG = 3,   ///< a bare twig of thin tubes
+    PEBBLE = 4, ///< convex and rounded, tilted
+    PUMPKIN = 5 ///< lobes with grooves, a curved stalk: concave
   };
 
   ///@{
-  /** The solid, where the input gives none: JUG (default), SPHERE, TORUS or TWIG. */
-  vtkSetClampMacro(Shape, int, JUG, TWIG);
+  /** The solid, where the input gives none: JUG (default), SPHERE, TORUS, TWIG, PEBBLE or PUMPKIN. */
+  vtkSetClampMacro(Shape, int, JUG, PUMPKIN);
   vtkGetMacro(Shape, int);
   void SetShapeToJug() { this->SetShape(JUG); }
   void SetShapeToSphere() { this->SetShape(SPHERE); }
   void SetShapeToTorus() { this->SetShape(TORUS); }
   void SetShapeToTwig() { this->SetShape(TWIG); }
+  void SetShapeToPebble() { this->SetShape(PEBBLE); }
+  void SetShapeToPumpkin() { this->SetShape(PUMPKIN); }
   ///@}
 
   ///@{

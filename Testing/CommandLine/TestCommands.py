@@ -12,7 +12,8 @@ from program import PICTURES, PROGRAM, ProgramTest
 METRICS = """views depth octants_tested view_tests inside intersection lost_no_corner lost_all_corners lost_surface
 dropped_octants cavities_filled carved_by_view points triangles open_edges non_manifold_edges non_manifold_vertices
 self_intersections components genus mean_iou mean_xor seconds peak_memory_mib leaf_edge marching_cubes_components
-surface vote_share background_votes bounds per_view volume closed""".split()
+surface vote_share background_votes bounds per_view volume closed carving dilation uncovered_share
+strict_uncovered_share mode island_share deficit alignment repaired_pixels""".split()
 TRUTH_METRICS = "mesh_to_truth_mean truth_to_mesh_mean truth_rms truth_hausdorff".split()
 
 
@@ -44,7 +45,7 @@ class Synthesize(ProgramTest):
         self.assertEqual(program.png_size(self.folder / "a" / "masks" / "view_000.png"), (96, 64))
 
     def test_every_shape_and_a_mesh(self):
-        for shape in ("torus", "twig"):
+        for shape in ("torus", "twig", "pebble", "pumpkin"):
             self.good("synthesize", self.folder / shape, "--shape", shape, "--size", "32x32", "--views", 2)
         self.good("synthesize", self.folder / "own", "--mesh", self.capture / "truth.ply", "--size", "128x128",
                   "--views", 12)

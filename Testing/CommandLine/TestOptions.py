@@ -42,6 +42,73 @@ class Surfaces(ProgramTest):
         self.assertGreater(exact["mean_iou"], middle["mean_iou"])
 
 
+class LocalHulls(ProgramTest):
+    def test_modes_and_switches(self):
+        robust = self.reconstruct()
+        thesis = self.reconstruct("--mode", "thesis")
+        plain = self.reconstruct("--no-repair", "--no-alignment", "--no-correction", "--no-thin-hulls")
+        self.assertEqual((robust["mode"], thesis["mode"], plain["mode"]), ("robust", "thesis", "robust"))
+        for found in (robust, thesis, plain):
+            self.assert_sound(found)
+            self.assertEqual((found["lost_surface"], found["dropped_octants"], found["island_share"]), (0, 0, 0.0))
+        self.assertEqual((plain["repaired_pixels"], plain["alignment"]), (0, 0.0))
+        self.bad(program.ARGUMENTS, ["--mode", "fast"], "reconstruct", self.capture, "-o", self.folder / "x.ply",
+                 "--mode", "fast")
+        self.bad(program.ARGUMENTS, ["--drop-islands", "1.5"], "reconstruct", self.capture, "-o",
+                 self.folder / "x.ply", "--drop-islands", 1.5)
+
+
+class Carving(ProgramTest):
+    """A twig thinner than the cameras' noise."""
+
+    SHAPE = "twig"
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.capture, cls.noisy = cls.shared / "clean", cls.shared / "noisy"
+        for folder, noise in ((cls.capture, 0), (cls.noisy, 1.2)):
+            made = program.run("synthesize", folder, "--shape", cls.SHAPE, "--size", "384x384", "--views", 20,
+                               "--noise-camera", noise, "--seed", 2, "--quiet")
+            if made.returncode != 0:
+                raise RuntimeError(made.stderr)
+
+    def test_clean_silhouettes_are_carved_strictly(self):
+        found = self.reconstruct(depth=6)
+        self.assertEqual((found["carving"], found["background_votes"], found["dilation"]), ("tolerant", 0, 0))
+        self.assertEqual((found["uncovered_share"], found["strict_uncovered_share"]), (0.0, 0.0))
+
+    def test_noisy_ones_with_the_tolerance_that_covers_them(self):
+        found = self.reconstruct(capture=self.noisy, depth=6)
+        self.assertGreater(found["strict_uncovered_share"], 0.01)
+        self.assertLess(found["uncovered_share"], 0.001)
+        self.assertGreater(found["background_votes"] + found["dilation"], 0)
+        self.assertAlmostEqual(found["vote_share"], (20 - found["background_votes"]) / 20)
+        self.assertEqual(found["lost_surface"], 0)
+        strict = self.reconstruct("--carving", "strict", capture=self.noisy, depth=6)
+        self.assertEqual((strict["carving"], strict["background_votes"], strict["dilation"]), ("strict", 0, 0))
+        self.assertIsNone(strict["uncovered_share"])
+        self.assertLess(strict["mean_iou"], found["mean_iou"])
+        self.assertLess(found["components"], strict["components"])
+
+    def test_who_settles_it_settles_it(self):
+        for options in (["--background-votes", 0], ["--vote-share", 1], ["--dilate", 1], ["--votes", "faithful"]):
+            found = self.reconstruct(*options, capture=self.noisy, depth=6)
+            self.assertEqual((found["carving"], found["background_votes"], found["dilation"]), ("strict", 0, 0), options)
+        # Morphology of no pixels, or of another kind, settles nothing.
+        for options in (["--dilate", 0], ["--closing", 1]):
+            self.assertEqual(self.reconstruct(*options, capture=self.noisy, depth=6)["carving"], "tolerant", options)
+
+    def test_report(self):
+        done = self.good("reconstruct", self.capture, "-o", self.folder / "x.ply", "--depth", 6)
+        self.assertIn("carving      strict: it leaves 0.00 % of the silhouettes uncovered", done.stdout)
+        done = self.good("reconstruct", self.noisy, "-o", self.folder / "x.ply", "--depth", 6)
+        self.assertRegex(done.stdout, r"carving +tolerant, as strict carving leaves \d+\.\d\d % of the silhouettes "
+                                      r"uncovered, this 0\.0\d %: background votes \d, dilation \d px")
+        done = self.good("reconstruct", self.noisy, "-o", self.folder / "x.ply", "--depth", 6, "--carving", "strict")
+        self.assertNotIn("carving ", done.stdout)
+
+
 class Octrees(ProgramTest):
     SHAPE = "sphere"
 
@@ -161,6 +228,20 @@ class Largest(ProgramTest):
         self.assertGreater(one["dropped_octants"], 0)
         self.assertLess(one["volume"], both["volume"])
         self.assertGreater(one["volume"], 0.9 * both["volume"])
+
+    def test_islands_are_given_up_and_counted(self):
+        capture = self.boxes()
+        box = ["--bounds", "-2,2,-2,2,-2,2"]
+        both = self.reconstruct(*box, capture=capture)
+        kept = self.reconstruct(*box, "--drop-islands=0.001", capture=capture)
+        self.assertEqual((kept["components"], kept["dropped_octants"]), (2, 0))
+        one = self.reconstruct(*box, "--drop-islands=0.3", capture=capture)
+        self.assert_sound(one)
+        self.assertEqual((one["components"], one["lost_surface"], one["island_share"]), (1, 0, 0.3))
+        self.assertGreater(one["dropped_octants"], 0)
+        self.assertLess(one["volume"], both["volume"])
+        default = self.reconstruct(*box, "--drop-islands", capture=capture)
+        self.assertEqual(default["island_share"], 0.05)
 
 
 if __name__ == "__main__":

@@ -77,7 +77,7 @@ TEST(CellSafety, PointsStayApartInSinglePrecision)
   const Mesh mesh = placePoints(r.lattice, r.shell, r.surface, r.fractions, true);
   for (const auto& p : mesh.points)
   {
-    EXPECT_EQ(p, p.cast<float>().cast<double>().eval());
+    EXPECT_EQ(p, roundedToFloat(p));
   }
   EXPECT_TRUE(assessMesh(mesh, r.execution).sound());
 }
@@ -87,4 +87,18 @@ TEST(CellSafety, FloatThatIsTooCoarseForTheDepthIsAnError)
   EXPECT_NO_THROW(requireSinglePrecision({ { Eigen::Vector3d(-1, -1, -1), 2.0 }, 12 }));
   EXPECT_THROW(requireSinglePrecision({ { Eigen::Vector3d(-1, -1, -1), 2.0 }, 16 }), InvalidInput);
   EXPECT_THROW(requireSinglePrecision({ { Eigen::Vector3d(5e6, 0, 0), 2.0 }, 6 }), InvalidInput);
+}
+
+TEST(CellSafety, RoundedToFloatRounds)
+{
+  for (int i = 1; i < 1000; ++i)
+  {
+    const Vector3 p(1.0 / i, 3.0 / (7.0 + i), 1e-9 * i + 1.0);
+    const Vector3 q = roundedToFloat(p);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const volatile float expected = float(p[axis]);
+      EXPECT_EQ(q[axis], double(expected));
+    }
+  }
 }

@@ -143,7 +143,7 @@ TEST(LocalHullSurface, KeepsItsPromiseInSinglePrecisionAndForTheShallowestTrees)
     expectPromise(result.mesh, octree, "depth " + std::to_string(depth));
     for (const auto& p : result.mesh.points)
     {
-      EXPECT_EQ(p, p.cast<float>().cast<double>().eval());
+      EXPECT_EQ(p, roundedToFloat(p));
     }
   }
 }

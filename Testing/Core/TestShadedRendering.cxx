@@ -55,7 +55,8 @@ TEST(ShadedRendering, keyGivesBackTheMask)
   SyntheticShapeOptions coarse;
   coarse.refinement = 0.5;
   for (const SyntheticShape shape :
-       {SyntheticShape::Jug, SyntheticShape::Sphere, SyntheticShape::Torus, SyntheticShape::Twig})
+       {SyntheticShape::Jug, SyntheticShape::Sphere, SyntheticShape::Torus, SyntheticShape::Twig,
+        SyntheticShape::Pebble, SyntheticShape::Pumpkin})
   {
     const Mesh mesh = syntheticShape(shape, coarse);
     const BinaryImage mask = renderSilhouette(mesh, camera(), Size, Size);

@@ -25,7 +25,7 @@ TEST(SurvivorCovering, GivesEverySurvivorAnInsideCornerAndEveryComponentOneSolid
     LatticeLabels labels(octree, shell, views, execution);
     const auto before = labels.inside();
     const CoveringResult result = coverSurvivors(labels, {});
-    EXPECT_GT(result.coveredOctants, 0u);
+    EXPECT_GT(result.coveredCells.size(), 0u);
     std::set<std::uint32_t> added(result.coveringCorners.begin(), result.coveringCorners.end());
     EXPECT_EQ(added.size(), result.coveringCorners.size());
     for (std::uint32_t c = 0; c < shell.corners.size(); ++c)

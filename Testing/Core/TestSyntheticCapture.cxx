@@ -339,4 +339,34 @@ TEST(SyntheticCapture, refusesMeshesWithoutExtent)
   expectRefused(point, small(3), "");
 }
 
+TEST(SyntheticCapture, noiseDrawnAnewIsThatOfACaptureMadeAnew)
+{
+  const Mesh mesh = coarseShape(SyntheticShape::Torus);
+  SyntheticCaptureOptions options = noisy(5);
+  SyntheticCapture again = capture(mesh, options);
+  options.seed = 7;
+  options.noiseBlobs = 2;
+  Threads threads(3);
+  redrawNoise(again, mesh, options, threads);
+  expectSame(again, capture(mesh, options));
+  redrawNoise(again, mesh, small(5), threads);
+  expectSame(again, capture(mesh, small(5)));
+  EXPECT_THROW(redrawNoise(again, mesh, small(6), threads), InvalidInput);
+}
+
+TEST(SyntheticCapture, withoutPhotographsAllElseIsTheSame)
+{
+  const Mesh mesh = coarseShape(SyntheticShape::Torus);
+  SyntheticCaptureOptions options = noisy(3);
+  SyntheticCapture whole = capture(mesh, options);
+  options.photographs = false;
+  const SyntheticCapture bare = capture(mesh, options);
+  for (SyntheticView& view : whole.views)
+  {
+    EXPECT_FALSE(view.photograph.empty());
+    view.photograph.clear();
+  }
+  expectSame(whole, bare);
+}
+
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SyntheticShapes.h"
 
+#include "ConvexHull.h"
 #include "Error.h"
 #include "MeshSoundness.h"
 
@@ -137,12 +138,66 @@ TEST(SyntheticShapes, twigIsThinnerThanAnOctantOfDepth7)
   EXPECT_LT(diameter, 0.014);
 }
 
+TEST(SyntheticShapes, pebbleIsConvexAndTilted)
+{
+  const Mesh mesh = syntheticShape(SyntheticShape::Pebble);
+  expectSound(mesh, 0);
+  for (const Triangle& t : mesh.triangles)
+  {
+    EXPECT_NEAR(pebbleLevel(mesh.points[t[0]]), 1.0, 1e-12);
+    const Eigen::Vector3d middle = (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) / 3.0;
+    EXPECT_NEAR(pebbleLevel(middle), 1.0, 1e-3);
+  }
+  for (std::size_t i = 0; i + 1 < mesh.points.size(); ++i) // the solid between any two of its points
+  {
+    const Eigen::Vector3d& other = mesh.points[(i * 7919 + 1) % mesh.points.size()];
+    EXPECT_LE(pebbleLevel(0.5 * (mesh.points[i] + other)), 1.0 + 1e-12);
+  }
+  const std::optional<Mesh> hull = convexHull(mesh.points);
+  ASSERT_TRUE(hull.has_value());
+  EXPECT_NEAR(volume(mesh) / volume(*hull), 1.0, 1e-4);
+  // Turned by half a turn about z, or seen from behind, it is another shape.
+  double turned = 0.0;
+  double opposite = 0.0;
+  for (const Eigen::Vector3d& p : mesh.points)
+  {
+    turned = std::max(turned, std::abs(pebbleLevel({-p.x(), -p.y(), p.z()}) - 1.0));
+    opposite = std::max(opposite, std::abs(pebbleLevel(-p) - 1.0));
+  }
+  EXPECT_GT(turned, 0.1);
+  EXPECT_GT(opposite, 0.05);
+}
+
+TEST(SyntheticShapes, pumpkinHasLobesHollowsAndAStalk)
+{
+  const Mesh mesh = syntheticShape(SyntheticShape::Pumpkin);
+  expectSound(mesh, 0);
+  EXPECT_EQ(crossings(mesh, {0.001, 0.002, -0.16}, Eigen::Vector3d::UnitX()), 2); // one solid, no cavity
+  const std::optional<Mesh> hull = convexHull(mesh.points);
+  ASSERT_TRUE(hull.has_value());
+  EXPECT_LT(volume(mesh), 0.9 * volume(*hull));
+  // A ray that grazes the lobes goes in and out of several.
+  int most = 0;
+  for (double y = 0.5; y < 0.9; y += 0.01)
+  {
+    most = std::max(most, crossings(mesh, {-0.99, y, -0.1612}, {1.0, 0.0013, 0.0017}));
+  }
+  EXPECT_GE(most, 4);
+  Eigen::Vector3d tip = mesh.points[0];
+  for (const Eigen::Vector3d& p : mesh.points)
+  {
+    tip = p.z() > tip.z() ? p : tip;
+  }
+  EXPECT_GT(tip.head<2>().norm(), 0.1); // the stalk bends away
+}
+
 TEST(SyntheticShapes, refinementMultipliesTheFaces)
 {
   SyntheticShapeOptions coarse;
   coarse.refinement = 0.5;
   for (const SyntheticShape shape :
-       {SyntheticShape::Jug, SyntheticShape::Sphere, SyntheticShape::Torus, SyntheticShape::Twig})
+       {SyntheticShape::Jug, SyntheticShape::Sphere, SyntheticShape::Torus, SyntheticShape::Twig,
+        SyntheticShape::Pebble, SyntheticShape::Pumpkin})
   {
     const Mesh mesh = syntheticShape(shape, coarse);
     expectSound(mesh, shape == SyntheticShape::Jug || shape == SyntheticShape::Torus ? 1 : 0);

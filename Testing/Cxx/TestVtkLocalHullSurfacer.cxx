@@ -11,6 +11,7 @@
 #include "vtkHyperTreeGrid.h"
 #include "vtkTable.h"
 
+#include <cmath>
 #include <set>
 
 using namespace silhouette::testing;
@@ -62,7 +63,9 @@ TEST(VtkLocalHullSurfacer, KeepsItsPromise)
     vtkPolyData* surface = pipeline.surface->GetOutput();
     EXPECT_GT(field(surface, "Survivors"), 0);
     EXPECT_EQ(field(surface, "IgnoredPoints"), 0);
-    for (const char* name : {"CoveredOctants", "CoveringCorners", "Bridges", "CavitiesFilled", "MovedToMiddle"})
+    EXPECT_EQ(field(surface, "DroppedOctants"), 0);
+    for (const char* name : {"CoveredOctants", "CoveringCorners", "Bridges", "CavitiesFilled", "MovedToMiddle",
+                             "Deficit", "Alignment", "RepairedPixels"})
     {
       EXPECT_GE(field(surface, name), 0) << name;
     }
@@ -113,8 +116,18 @@ TEST(VtkLocalHullSurfacer, IsAProperFilter)
 {
   Pipeline pipeline;
   vtkLocalHullSurfacer* filter = pipeline.surface;
-  expectPrints(filter, {"FillCavities", "CoverOffset", "BridgeGap", "HullTolerance", "SeedBlock",
-                        "GenerateNormals", "OutputPointsPrecision"});
+  expectPrints(filter,
+               {"FillCavities", "CoverOffset", "BridgeGap", "HullTolerance", "SeedBlock", "GenerateNormals",
+                "OutputPointsPrecision", "Mode", "IslandShare", "RepairSilhouettes", "AlignViews", "CorrectField",
+                "ThinHulls", "SpeckleArea", "SpeckleShare", "BlobDepth", "BlobChord", "BlobCorners",
+                "SmallestDeficit", "Smoothing", "GreatestSmoothing", "Gentleness", "Alignments", "ContourReach",
+                "ThinSmallestRadius", "ThinLargestRadius", "ThinReach", "SliceAxis", "SliceTolerance",
+                "ChainTolerance", "ChainOverlap"});
+  expectModifies(filter, [&] { filter->SetModeToThesis(); });
+  expectModifies(filter, [&] { filter->SetModeToRobust(); });
+  expectModifies(filter, [&] { filter->SetIslandShare(0.5); });
+  expectModifies(filter, [&] { filter->AlignViewsOff(); });
+  expectModifies(filter, [&] { filter->SetBlobCorners(9); });
   expectModifies(filter, [&] { filter->SetCoverOffset(0.2); });
   expectModifies(filter, [&] { filter->FillCavitiesOff(); });
   expectModifies(filter, [&] { filter->SetSeedBlock(2); });
@@ -125,6 +138,65 @@ TEST(VtkLocalHullSurfacer, IsAProperFilter)
   expectAbort(filter, 0.05);
   expectAbort(filter, 0.5);
   expectAbort(filter, 0.11, 1);
+}
+
+TEST(VtkLocalHullSurfacer, ThesisModeKeepsThePromiseWithItsHulls)
+{
+  Pipeline pipeline;
+  pipeline.surface->SetModeToThesis();
+  EXPECT_NE(printed(pipeline.surface).find("Mode: Thesis"), std::string::npos);
+  const Listener listener(pipeline.surface);
+  pipeline.surface->Update();
+  EXPECT_TRUE(listener.silent());
+  vtkNew<vtkSilhouetteEvaluator> evaluator;
+  evaluator->SetInputConnection(0, pipeline.surface->GetOutputPort(0));
+  evaluator->SetViewsConnection(pipeline.octree->GetOutputPort(1));
+  evaluator->SetOctreeConnection(pipeline.octree->GetOutputPort(0));
+  evaluator->Update();
+  EXPECT_EQ(field(evaluator->GetOutput(), "Sound"), 1);
+  EXPECT_EQ(field(evaluator->GetOutput(), "LostSurface"), 0);
+  pipeline.surface->Update(1);
+  EXPECT_GT(vtkPolyData::SafeDownCast(pipeline.surface->GetOutputDataObject(1))->GetNumberOfPolys(), 0);
+  pipeline.surface->SetChainOverlap(0.0);
+  expectError(pipeline.surface, {"overlap"}, 0);
+}
+
+TEST(VtkLocalHullSurfacer, GivesUpIslandsAndCountsThem)
+{
+  // A ball and a smaller one above it, on the axis of the ring of cameras.
+  auto views = ringViews();
+  for (unsigned int i = 0; i < views->GetNumberOfPartitionedDataSets(); ++i)
+  {
+    auto* image = vtkImageData::SafeDownCast(views->GetPartition(i, 0));
+    auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer());
+    for (int n = 0; n < ImageSize * ImageSize; ++n)
+    {
+      const double x = n % ImageSize - 0.5 * (ImageSize - 1), y = n / ImageSize - 0.5 * (ImageSize - 1);
+      pixel[n] = std::hypot(x, y + 12.0) <= 24.0 || std::hypot(x, y - 30.0) <= 6.0 ? 255 : 0;
+    }
+  }
+  Pipeline pipeline;
+  pipeline.octree->SetInputData(views);
+  vtkNew<vtkSilhouetteEvaluator> evaluator;
+  evaluator->SetInputConnection(0, pipeline.surface->GetOutputPort(0));
+  evaluator->SetViewsConnection(pipeline.octree->GetOutputPort(1));
+  evaluator->SetOctreeConnection(pipeline.octree->GetOutputPort(0));
+  evaluator->Update();
+  EXPECT_EQ(field(evaluator->GetOutput(), "Components"), 2);
+  EXPECT_EQ(field(evaluator->GetOutput(), "LostSurface"), 0);
+  pipeline.surface->SetIslandShare(0.3);
+  evaluator->Update();
+  EXPECT_EQ(field(evaluator->GetOutput(), "Components"), 1);
+  EXPECT_EQ(field(evaluator->GetOutput(), "Sound"), 1);
+  const double dropped = field(pipeline.surface->GetOutput(), "DroppedOctants");
+  EXPECT_GT(dropped, 0);
+  EXPECT_GT(field(evaluator->GetOutput(), "LostSurface"), 0) << "all survivors are asked for";
+  EXPECT_LE(field(evaluator->GetOutput(), "LostSurface"), dropped);
+  evaluator->SetIslandShare(0.3);
+  evaluator->Update();
+  EXPECT_EQ(field(evaluator->GetOutput(), "LostSurface"), 0);
+  evaluator->SetIslandShare(-1.0);
+  expectError(evaluator, {"island share -1"});
 }
 
 TEST(VtkLocalHullSurfacer, GivesNormalsAndPrecision)
@@ -170,6 +242,9 @@ TEST(VtkLocalHullSurfacer, RefusesWhatDoesNotFit)
   pipeline.surface->SetBridgeGap(-1);
   expectError(pipeline.surface, {"-1"});
   pipeline.surface->SetBridgeGap(2);
+  pipeline.surface->SetIslandShare(1.5);
+  expectError(pipeline.surface, {"island share 1.5"});
+  pipeline.surface->SetIslandShare(0.0);
   pipeline.surface->SetViewsData(ringViews(7));
   expectError(pipeline.surface, {"carved from other views"});
   pipeline.surface->SetViewsConnection(pipeline.octree->GetOutputPort(1));

@@ -124,7 +124,9 @@ TEST(VtkSilhouetteEvaluator, IsAProperFilter)
 {
   auto evaluator = evaluatorOf(sphere(1.0));
   evaluator->SetTruthData(sphere(1.1));
-  expectPrints(evaluator, {"SampleSpacing"});
+  expectPrints(evaluator, {"IslandShare", "SampleSpacing"});
+  expectModifies(evaluator, [&] { evaluator->SetIslandShare(0.1); });
+  evaluator->SetIslandShare(0.0);
   expectModifies(evaluator, [&] { evaluator->SetSampleSpacing(0.04); });
   expectProgress(evaluator);
   expectAbort(evaluator, 0.1);

@@ -9,6 +9,8 @@
 #include "vtkTypeUInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 using namespace silhouette::testing;
@@ -51,6 +53,45 @@ std::array<double, 2> volumes(vtkHyperTreeGrid* grid)
 }
 
 } // namespace
+
+TEST(VtkSilhouetteOctreeSource, TakesNoToleranceForCleanSilhouettes)
+{
+  auto source = ringSource();
+  source->Update();
+  const auto strict = volumes(source->GetOutput());
+  EXPECT_TRUE(std::isnan(field(source->GetOutput(), "UncoveredShare"))) << "not measured unless asked for";
+  source->AutomaticToleranceOn();
+  source->Update();
+  EXPECT_EQ(field(source->GetOutput(), "BackgroundVotes"), 0);
+  EXPECT_EQ(field(source->GetOutput(), "Dilation"), 0);
+  EXPECT_EQ(field(source->GetOutput(), "UncoveredShare"), 0);
+  EXPECT_EQ(field(source->GetOutput(), "StrictUncoveredShare"), 0);
+  EXPECT_EQ(volumes(source->GetOutput()), strict);
+}
+
+TEST(VtkSilhouetteOctreeSource, FindsTheVotesThatOutweighAWrongView)
+{
+  auto views = ringViews(12);
+  auto* image = vtkImageData::SafeDownCast(views->GetPartition(5, 0));
+  auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer());
+  std::fill_n(pixel, ImageSize * ImageSize / 2, static_cast<unsigned char>(0)); // its lower half
+  vtkNew<vtkSilhouetteOctreeSource> source;
+  source->SetInputData(views);
+  source->SetDepth(5);
+  source->AutomaticToleranceOn();
+  const Listener listener(source);
+  source->Update();
+  EXPECT_TRUE(listener.silent());
+  EXPECT_EQ(source->GetBackgroundVotes(), 0) << "executing changes no setting";
+  EXPECT_EQ(field(source->GetOutput(), "BackgroundVotes"), 1);
+  EXPECT_EQ(field(source->GetOutput(), "Dilation"), 0);
+  EXPECT_GT(field(source->GetOutput(), "StrictUncoveredShare"), 0.2);
+  EXPECT_LE(field(source->GetOutput(), "UncoveredShare"), 0.001);
+  expectProgress(source);
+  expectAbort(source, 0.3);
+  source->SetBackgroundVotes(12);
+  expectError(source, {"background votes 12 are outside 0 to 11"});
+}
 
 TEST(VtkSilhouetteOctreeSource, CarvesTheViewsOfItsPort)
 {
@@ -198,7 +239,7 @@ TEST(VtkSilhouetteOctreeSource, LeafEdgeDecidesTheDepth)
 TEST(VtkSilhouetteOctreeSource, IsAProperFilter)
 {
   auto source = ringSource();
-  expectPrints(source, {"Depth", "LeafEdge", "AutomaticBounds", "Bounds", "BackgroundVotes", "OutsidePolicy",
+  expectPrints(source, {"Depth", "LeafEdge", "AutomaticBounds", "Bounds", "BackgroundVotes", "AutomaticTolerance", "OutsidePolicy",
                         "AddedViews"});
   expectModifies(source, [&] { source->SetDepth(6); });
   expectModifies(source, [&] { source->SetBounds(0, 1, 0, 1, 0, 1); });

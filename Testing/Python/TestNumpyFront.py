@@ -25,15 +25,15 @@ def camera(direction):
     return intrinsics @ np.hstack([rotation, -(rotation @ position)[:, np.newaxis]])
 
 
-def mask_of(projection):
-    """Pixels whose centre's ray meets the sphere; row 0 at the top."""
+def mask_of(projection, centre=CENTRE, radius=RADIUS):
+    """Pixels whose centre's ray meets a sphere; row 0 at the top."""
     inverse = np.linalg.inv(projection[:, :3])
     position = -inverse @ projection[:, 3]
     rows, columns = np.mgrid[0:SIZE[0], 0:SIZE[1]]
     rays = np.stack([columns, rows, np.ones(SIZE)], axis=-1) @ inverse.T
     rays /= np.linalg.norm(rays, axis=-1, keepdims=True)
-    offset = CENTRE - position
-    return np.linalg.norm(offset - (rays @ offset)[..., np.newaxis] * rays, axis=-1) < RADIUS
+    offset = centre - position
+    return np.linalg.norm(offset - (rays @ offset)[..., np.newaxis] * rays, axis=-1) < radius
 
 
 def capture(count=20):
@@ -44,6 +44,14 @@ def capture(count=20):
     directions = np.stack([np.sqrt(1 - z**2) * np.cos(angle), np.sqrt(1 - z**2) * np.sin(angle), z], axis=1)
     projections = np.stack([camera(direction) for direction in directions])
     return [mask_of(projection) for projection in projections], projections
+
+
+ISLAND = np.array([0.0, 0.0, 1.05])  # above the sphere
+ISLAND_BOX = np.stack([CENTRE - 1.3, CENTRE + 1.3], axis=1).ravel()
+
+
+def capture_of_small_ball():
+    return [mask_of(projection, CENTRE + ISLAND, 0.15) for projection in capture()[1]]
 
 
 def volume_of(points, triangles):
@@ -91,7 +99,7 @@ class TestReconstruct(unittest.TestCase):
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 flipped = [np.roll(mask[::-1], 30, axis=0) for mask in self.masks]
-                points, triangles = reconstruct(flipped, self.projections, depth=5, bounds=box)
+                points, triangles = reconstruct(flipped, self.projections, depth=5, bounds=box, carving="strict")
         except RuntimeError:
             return
         self.assertLess(volume_of(points, triangles), 0.9 * upright)
@@ -115,11 +123,39 @@ class TestReconstruct(unittest.TestCase):
         masks = [mask.copy() for mask in self.masks]
         masks[3][:, 70:] = False
         solid = 4.0 / 3.0 * np.pi * RADIUS**3
-        strict = reconstruct(masks, self.projections, depth=5, surface="voting")
+        strict = reconstruct(masks, self.projections, depth=5, surface="voting", vote_share=1.0)
         voted = reconstruct(masks, self.projections, depth=5, surface="voting", vote_share=0.9)
         self.assertLess(volume_of(*strict), 0.7 * solid)
         self.assertGreater(volume_of(*voted), 0.9 * solid)
         self.check_closed(*voted)
+
+    def test_tolerance_is_found(self):
+        masks = [mask.copy() for mask in self.masks]
+        masks[3][:, 70:] = False
+        solid = 4.0 / 3.0 * np.pi * RADIUS**3
+        for surface in ("local-hull", "voting"):
+            with self.subTest(surface):
+                found = reconstruct(masks, self.projections, depth=5, surface=surface)
+                self.assertGreater(volume_of(*found), 0.9 * solid)
+                self.check_closed(*found)
+        strict = reconstruct(masks, self.projections, depth=5, surface="voting", carving="strict")
+        self.assertLess(volume_of(*strict), 0.7 * solid)
+        clean = reconstruct(self.masks, self.projections, depth=5)
+        np.testing.assert_array_equal(clean[0], reconstruct(self.masks, self.projections, depth=5, carving="strict")[0])
+
+    def test_thesis_mode(self):
+        points, triangles = reconstruct(self.masks, self.projections, depth=5, mode="thesis")
+        self.check_closed(points, triangles)
+        self.assertGreater(volume_of(points, triangles), 0.98 * 4.0 / 3.0 * np.pi * RADIUS**3)
+
+    def test_islands(self):
+        """A second, smaller ball is a quarter as wide: a piece of the octree that may be given up."""
+        masks = [mask | small for mask, small in zip(self.masks, capture_of_small_ball())]
+        both = reconstruct(masks, self.projections, depth=6, bounds=ISLAND_BOX)
+        one = reconstruct(masks, self.projections, depth=6, bounds=ISLAND_BOX, drop_islands=0.2)
+        self.check_closed(*one)
+        self.assertGreater(both[0][:, 2].max(), CENTRE[2] + 1.1)
+        self.assertLess(one[0][:, 2].max(), CENTRE[2] + RADIUS + 0.2)
 
     def test_octree(self):
         tree = octree(self.masks, self.projections, depth=5)
@@ -167,6 +203,9 @@ class TestErrors(unittest.TestCase):
         self.check(ValueError, "bounds are", bounds=(0, 1, 2))
         self.check(ValueError, "'nowhere', it is one of border", outside="nowhere")
         self.check(ValueError, "5 names", names=list("abcde"))
+        self.check(ValueError, "carving is 'lax', it is one of tolerant, strict", carving="lax")
+        self.check(ValueError, "mode is 'fast', it is one of robust, thesis", mode="fast")
+        self.check(RuntimeError, "island share 2", drop_islands=2.0)
 
     def test_errors_of_the_filters(self):
         self.check(RuntimeError, "(?i)depth", depth=40)

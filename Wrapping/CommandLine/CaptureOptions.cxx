@@ -17,6 +17,9 @@ constexpr int LargestRadius = 1000;
 const char* const CriteriaGroup = "Silhouettes: a pixel is background where ANY of these says so";
 const char* const CleanGroup = "Silhouettes: then, in this order";
 
+/** In the order of vtkSilhouetteExtractor's operations. */
+const std::array<std::string, 4> OperationNames = { "--opening", "--closing", "--dilate", "--erode" };
+
 } // namespace
 
 void CaptureOptions::addTo(CLI::App& command)
@@ -64,13 +67,12 @@ void CaptureOptions::addCriteria(CLI::App& command)
 void CaptureOptions::addClean(CLI::App& command)
 {
   command.add_flag("--invert", this->Invert, "Swap object and background")->group(CleanGroup);
-  const char* const options[4] = { "--opening", "--closing", "--dilate", "--erode" };
   const char* const meanings[4] = { "Remove specks: erode, then dilate, by a disc of R pixels (1 is 3 x 3). These four "
                                     "may be repeated, and run in the order of the command line",
     "Close gaps: dilate, then erode", "Grow the object by R pixels", "Shrink the object by R pixels" };
   for (int i = 0; i < 4; ++i)
   {
-    this->Operations[i] = command.add_option(options[i], this->Radii[i], meanings[i])
+    this->Operations[i] = command.add_option(OperationNames[i], this->Radii[i], meanings[i])
                             ->type_name("R")
                             ->allow_extra_args(false)
                             ->check(inRange(0, LargestRadius, true))
@@ -126,6 +128,14 @@ void CaptureOptions::finish()
 bool CaptureOptions::hasCriteria() const
 {
   return this->KeyExcess || this->Background || this->Threshold || this->Alpha;
+}
+
+bool CaptureOptions::dilates() const
+{
+  const auto dilation = std::find(OperationNames.begin(), OperationNames.end(), std::string("--dilate"));
+  const int operation = static_cast<int>(dilation - OperationNames.begin());
+  return std::any_of(this->Morphology.begin(), this->Morphology.end(),
+    [operation](const auto& one) { return one.first == operation && one.second > 0; });
 }
 
 void CaptureOptions::configure(const std::string& capture, vtkSilhouetteCaptureReader* reader) const

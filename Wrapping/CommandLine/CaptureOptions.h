@@ -30,6 +30,9 @@ public:
   /** Reads what the parser leaves as text. Throws CLI::ValidationError. To be called once all is parsed. */
   void finish();
 
+  /** Does the user dilate silhouettes? */
+  bool dilates() const;
+
   void configure(const std::string& capture, vtkSilhouetteCaptureReader* reader) const;
   void configure(vtkSilhouetteExtractor* extractor) const;
 

@@ -148,6 +148,12 @@ void addOctree(Metrics& metrics, vtkHyperTreeGrid* octree, vtkPartitionedDataSet
     metrics["root_cube"] = { { "origin", { values[0], values[1], values[2] } }, { "edge", values[3] } };
   }
   metrics["background_votes"] = fieldCount(octree, "BackgroundVotes");
+  metrics["dilation"] = fieldCount(octree, "Dilation");
+  for (const auto& [key, name] : { std::pair<const char*, const char*>("uncovered_share", "UncoveredShare"),
+         std::pair<const char*, const char*>("strict_uncovered_share", "StrictUncoveredShare") })
+  {
+    metrics[key] = hasField(octree, name) ? number(fieldValue(octree, name)) : Metrics(nullptr);
+  }
   metrics["octants_tested"] = fieldCount(octree, "OctantsTested");
   metrics["view_tests"] = fieldCount(octree, "ViewTests");
   metrics["inside"] = fieldCount(octree, "InsideOctants");

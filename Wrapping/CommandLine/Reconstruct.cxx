@@ -46,6 +46,7 @@ Reconstruct::Reconstruct(CLI::App& program)
   this->Options.silhouettes.addTo(*this->App);
   this->addOctree();
   this->addSurface();
+  this->addLocalHulls();
   this->addRest();
   this->App->footer(footer());
 }
@@ -96,6 +97,46 @@ void Reconstruct::addOctree()
     ->check(CLI::IsMember({ "border", "unknown", "background" }))
     ->capture_default_str()
     ->group(group);
+  this->App
+    ->add_option("--carving", this->Options.carving, "tolerant, background votes, and at worst dilated silhouettes, where "
+                                                     "strict carving cuts parts thinner than the noise, so that the octree "
+                                                     "no longer covers the silhouettes; strict, without looking. "
+                                                     "--background-votes, --vote-share, --dilate, --votes faithful and "
+                                                     "--surface marching-cubes settle it, too")
+    ->type_name("KIND")
+    ->check(CLI::IsMember({ "tolerant", "strict" }))
+    ->capture_default_str()
+    ->group(group);
+}
+
+void Reconstruct::addLocalHulls()
+{
+  const char* const group = "Local hulls";
+  this->App
+    ->add_option("--mode", this->Options.mode, "robust, labels of the views corrected by what they agree on; thesis, one "
+                                               "convex hull for each chain of slices, combined")
+    ->type_name("MODE")
+    ->check(CLI::IsMember({ "robust", "thesis" }))
+    ->capture_default_str()
+    ->group(group);
+  this->App
+    ->add_option("--drop-islands", this->Options.islandShare, "Give up components of the octants that survive where "
+                                                              "they have fewer than this share of the largest one's, 0 "
+                                                              "to 1; they are counted in the metrics, dropped_octants. "
+                                                              "Without this option all are kept")
+    ->type_name("[SHARE]")
+    ->expected(0, 1)
+    ->default_str("0.05")
+    ->check(inRange(0.0, 1.0))
+    ->group(group);
+  const auto addSwitch = [&](const char* name, bool& option, const char* help)
+  { this->App->add_flag_callback(name, [&option] { option = false; }, help)->group(group); };
+  addSwitch("--no-repair", this->Options.repair, "Leave silhouettes as they are, where a single view cuts deep and wide "
+                                                 "into the object too");
+  addSwitch("--no-alignment", this->Options.alignment, "Leave views where their cameras say they are");
+  addSwitch("--no-correction", this->Options.correction, "Leave the surface where the strictest views say it is, not "
+                                                         "where they agree on average");
+  addSwitch("--no-thin-hulls", this->Options.thinHulls, "Leave parts thinner than an octant angular");
 }
 
 void Reconstruct::addSurface()

@@ -30,6 +30,13 @@ struct ReconstructOptions
   std::optional<int> backgroundVotes;
   std::string votes = "consistent";
   std::string edges = "exact";
+  std::string carving = "tolerant";
+  std::string mode = "robust";
+  double islandShare = 0.0;
+  bool repair = true;
+  bool alignment = true;
+  bool correction = true;
+  bool thinHulls = true;
   bool largest = false;
   std::string truth;
   std::string metrics;
@@ -50,6 +57,7 @@ private:
   void addOutputs();
   void addOctree();
   void addSurface();
+  void addLocalHulls();
   void addRest();
 
   ReconstructOptions Options;

@@ -50,6 +50,7 @@ void Reconstruction::run()
   this->connect();
   this->readCapture();
   this->setVotes();
+  this->setLocalHulls();
   this->carve();
   this->makeSurface();
 
@@ -130,15 +131,48 @@ void Reconstruction::setVotes()
       background = views - std::max(1, needed);
     }
   }
-  else if (consistent && background > 0 && background < views)
+  else if (consistent)
   {
-    this->Share = double(views - background) / views;
+    this->setShare(views, background);
   }
   this->Octree->SetBackgroundVotes(background);
   this->Cubes->SetShare(this->Share);
   this->Cubes->SetMode(consistent ? vtkVotingMarchingCubes::CONSISTENT : vtkVotingMarchingCubes::FAITHFUL);
   this->Cubes->SetEdgePlacement(
     this->Options.edges == "exact" ? vtkVotingMarchingCubes::EXACT : vtkVotingMarchingCubes::MIDDLE);
+}
+
+bool Reconstruction::carvesTolerantly() const
+{
+  const ReconstructOptions& options = this->Options;
+  const bool settled = options.voteShare || options.backgroundVotes || options.votes != "consistent" ||
+    options.surface == "marching-cubes" || options.silhouettes.dilates();
+  return options.carving == "tolerant" && !settled;
+}
+
+void Reconstruction::setShare(int views, int backgroundVotes)
+{
+  if (backgroundVotes > 0 && backgroundVotes < views)
+  {
+    this->Share = double(views - backgroundVotes) / views;
+    this->Cubes->SetShare(this->Share);
+  }
+}
+
+void Reconstruction::setLocalHulls()
+{
+  const ReconstructOptions& options = this->Options;
+  this->Hulls->SetMode(
+    options.mode == "thesis" ? vtkLocalHullSurfacer::THESIS : vtkLocalHullSurfacer::ROBUST);
+  this->Hulls->SetIslandShare(options.islandShare);
+  this->Hulls->SetRepairSilhouettes(options.repair);
+  this->Hulls->SetAlignViews(options.alignment);
+  this->Hulls->SetCorrectField(options.correction);
+  this->Hulls->SetThinHulls(options.thinHulls);
+  if (options.surface == "local-hull")
+  {
+    this->Evaluator->SetIslandShare(options.islandShare); // what is given up is dropped, not lost
+  }
 }
 
 void Reconstruction::carve()
@@ -157,7 +191,14 @@ void Reconstruction::carve()
     this->Octree->SetBounds(this->Options.bounds->data());
   }
   this->Octree->SetOutsidePolicy(indexOf(this->Options.outside, { "border", "unknown", "background" }));
+  this->Octree->SetAutomaticTolerance(this->carvesTolerantly());
   this->Run.run(this->Octree, "carve", "carving the octree");
+  if (this->carvesTolerantly())
+  {
+    vtkHyperTreeGrid* octree = this->Octree->GetOutput();
+    this->setShare(static_cast<int>(fieldCount(octree, "NumberOfViews")),
+      static_cast<int>(fieldCount(octree, "BackgroundVotes")));
+  }
 }
 
 void Reconstruction::makeSurface()
@@ -221,7 +262,8 @@ void Reconstruction::evaluate(vtkPolyData* stored)
   this->Run.run(this->Evaluator, "evaluate", "judging the mesh");
   const std::uint64_t lostNow = fieldCount(this->Evaluator->GetOutput(), "LostSurface");
   this->Found["lost_surface"] = dropped ? lost : lostNow;
-  this->DroppedOctants = dropped ? lostNow - std::min(lost, lostNow) : 0;
+  this->DroppedOctants = fieldCount(this->Surface, "DroppedOctants") + // islands
+    (dropped ? lostNow - std::min(lost, lostNow) : 0);
 }
 
 void Reconstruction::gatherMetrics(vtkPolyData* stored)
@@ -236,6 +278,7 @@ void Reconstruction::gatherMetrics(vtkPolyData* stored)
   metrics["votes"] = this->Options.votes;
   metrics["vote_share"] = this->Share;
   metrics["edges"] = this->Options.edges;
+  metrics["carving"] = this->carvesTolerantly() ? "tolerant" : "strict";
   addOctree(metrics, this->Octree->GetOutput(), this->Octree->GetViewsOutput());
   metrics["lost_no_corner"] = fieldCount(cubes, "LostNoCorner");
   metrics["lost_all_corners"] = fieldCount(cubes, "LostAllCorners");
@@ -249,6 +292,11 @@ void Reconstruction::gatherMetrics(vtkPolyData* stored)
   {
     metrics["survivors"] = fieldCount(this->Surface, "Survivors");
     metrics["covered_octants"] = fieldCount(this->Surface, "CoveredOctants");
+    metrics["mode"] = this->Options.mode;
+    metrics["island_share"] = this->Options.islandShare;
+    metrics["deficit"] = fieldValue(this->Surface, "Deficit");
+    metrics["alignment"] = fieldValue(this->Surface, "Alignment");
+    metrics["repaired_pixels"] = fieldCount(this->Surface, "RepairedPixels");
   }
   addMesh(metrics, this->Evaluator->GetOutput());
   double bounds[6];
@@ -291,6 +339,30 @@ void Reconstruction::writeImage(vtkPolyData* stored)
   file.commit();
 }
 
+std::string Reconstruction::describeCarving() const
+{
+  if (this->Found["uncovered_share"].is_null())
+  {
+    return {};
+  }
+  const int votes = this->Found["background_votes"].get<int>();
+  const int dilation = this->Found["dilation"].get<int>();
+  const double strict = 100.0 * this->Found["strict_uncovered_share"].get<double>();
+  const double share = 100.0 * this->Found["uncovered_share"].get<double>();
+  char text[200];
+  if (votes == 0 && dilation == 0)
+  {
+    std::snprintf(
+      text, sizeof text, "carving      strict: it leaves %.2f %% of the silhouettes uncovered\n", share);
+    return text;
+  }
+  std::snprintf(text, sizeof text,
+    "carving      tolerant, as strict carving leaves %.2f %% of the silhouettes uncovered, this %.2f %%: background "
+    "votes %d, dilation %d px\n",
+    strict, share, votes, dilation);
+  return text;
+}
+
 void Reconstruction::summarise() const
 {
   std::string text = "wrote        " + this->Options.mesh;
@@ -304,7 +376,7 @@ void Reconstruction::summarise() const
     this->Found["depth"].get<int>(), this->Found["leaf_edge"].get<double>(),
     this->Found["inside"].get<unsigned long long>(), this->Found["intersection"].get<unsigned long long>(),
     this->Found["lost_surface"].get<unsigned long long>());
-  text += octree + describeMesh(this->Found) + describeAgreement(this->Found) + describeTruth(this->Found) +
+  text += octree + this->describeCarving() + describeMesh(this->Found) + describeAgreement(this->Found) + describeTruth(this->Found) +
     describeCost(this->Found);
   std::fputs(text.c_str(), stdout);
 }

@@ -41,6 +41,11 @@ private:
   void connect();
   void setVotes();
   void carve();
+  /** Is the carving's tolerance to be found? */
+  bool carvesTolerantly() const;
+  void setShare(int views, int backgroundVotes);
+  void setLocalHulls();
+  std::string describeCarving() const;
   void makeSurface();
   /** The mesh as the staged file has it. */
   vtkSmartPointer<vtkPolyData> store(vtkPolyData* mesh, const StagedFile& file);

@@ -23,6 +23,9 @@ namespace
 
 constexpr int LargestSize = 16384;
 
+/** In the order of vtkSyntheticCaptureSource's shapes. */
+const std::vector<std::string> ShapeNames = { "jug", "sphere", "torus", "twig", "pebble", "pumpkin" };
+
 const char* const Description =
   "A capture whose truth is known: photographs, silhouettes and cameras of a solid, and the solid.\n\n"
   "Writes FOLDER/masks, FOLDER/images, FOLDER/projections.txt and FOLDER/truth.ply. Masks are exact (a pixel is object\n"
@@ -59,8 +62,9 @@ void Synthesize::addShape()
   const char* const group = "Solid and cameras";
   CLI::Option* shape = this->App->add_option("--shape", this->Shape,
     "jug, with a handle: genus 1, concave, thin parts; sphere, of radius 0.9; torus; twig, of tubes thinner than an "
-    "octant of depth 7 (default: jug). All lie in the cube from -1 to 1");
-  shape->type_name("NAME")->check(CLI::IsMember({ "jug", "sphere", "torus", "twig" }))->group(group);
+    "octant of depth 7; pebble, convex; pumpkin, with grooves and a stalk (default: jug). All lie in the cube from -1 "
+    "to 1");
+  shape->type_name("NAME")->check(CLI::IsMember(ShapeNames))->group(group);
   this->App->add_option("--mesh", this->Mesh, "A solid of your own instead: .vtp, .ply, .stl or .obj")
     ->type_name("FILE")
     ->excludes(shape)
@@ -134,7 +138,7 @@ void Synthesize::finish()
 
 void Synthesize::configure(vtkSyntheticCaptureSource* source) const
 {
-  source->SetShape(indexOf(this->Shape.value_or("jug"), { "jug", "sphere", "torus", "twig" }));
+  source->SetShape(indexOf(this->Shape.value_or("jug"), ShapeNames));
   source->SetNumberOfViews(this->Views);
   source->SetWidth(this->Width);
   source->SetHeight(this->Height);

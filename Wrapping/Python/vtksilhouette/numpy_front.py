@@ -37,6 +37,7 @@ _OUTSIDE = {
     "unknown": vtkSilhouetteOctreeSource.UNKNOWN,
     "background": vtkSilhouetteOctreeSource.BACKGROUND,
 }
+_MODES = {"robust": vtkLocalHullSurfacer.ROBUST, "thesis": vtkLocalHullSurfacer.THESIS}
 _EDGES = {"exact": vtkVotingMarchingCubes.EXACT, "middle": vtkVotingMarchingCubes.MIDDLE}
 
 
@@ -74,8 +75,9 @@ class Octree:
         return float(np.sum(self.edges() ** 3))
 
 
-def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", vote_share=1.0,
-                outside="border", edges="exact", names=None):
+def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", vote_share=None,
+                outside="border", edges="exact", names=None, carving="tolerant", mode="robust",
+                drop_islands=0.0, repair=True, alignment=True, correction=True, thin_hulls=True):
     """Reconstructs the mesh of an object from silhouettes.
 
     masks        sequence of m 2-D arrays, row 0 at the top; they may differ in size. Object is True, or
@@ -87,11 +89,24 @@ def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", 
     surface      "local-hull" (default): closed, manifold, free of self-intersections, with no thin part lost;
                  "voting": marching cubes with the views' votes; "marching-cubes": the same with all views
     vote_share   above 0 to 1: the share of the views that must call a point inside. Below 1, single wrong
-                 silhouettes are outvoted, and the object grows
+                 silhouettes are outvoted, and the object grows. None: what `carving` settles
     outside      what a view says beyond its image: "border" (nothing beyond a side that the object touches,
                  else background), "unknown" or "background"
     edges        where the surface crosses an edge of the grid: "exact", or in its "middle"
     names        sequence of m names of the views, for messages; None numbers them
+    carving      without vote_share: "tolerant" (default), the least share of votes, and at worst dilation of the
+                 silhouettes, that brings back parts thinner than the noise where strict carving cuts them; or
+                 "strict", all views. "marching-cubes" is always strict
+
+    For "local-hull" alone:
+    mode         "robust" (default): corrected by what the views agree on; "thesis": one convex hull for each chain
+                 of slices, combined
+    drop_islands 0 to 1: pieces of the octree with fewer octants than this share of the largest one's are given up;
+                 0 keeps all
+    repair       fill what a single view cuts deep and wide out of the object
+    alignment    shift views against an error of their cameras, where one is measured
+    correction   move the surface to where the views agree on average
+    thin_hulls   round parts thinner than an octant
 
     Returns (points, triangles): (n, 3) float64 and (k, 3) int64 indices into points, counter-clockwise seen
     from outside.
@@ -105,19 +120,34 @@ def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", 
     """
     if surface not in SURFACES:
         raise ValueError(f"surface is {surface!r}, it is one of {', '.join(SURFACES)}")
-    if surface == "marching-cubes" and vote_share != 1.0:
+    if surface == "marching-cubes" and vote_share not in (None, 1.0):
         raise ValueError(f"surface 'marching-cubes' asks all views, vote_share {vote_share} needs 'voting' "
                          "or 'local-hull'")
-    source = _octree_source(masks, projections, depth, bounds, vote_share, outside, names)
+    if carving not in ("tolerant", "strict"):
+        raise ValueError(f"carving is {carving!r}, it is one of tolerant, strict")
+    share = 1.0 if vote_share is None else float(vote_share)
+    source = _octree_source(masks, projections, depth, bounds, share, outside, names)
+    if vote_share is None and carving == "tolerant" and surface != "marching-cubes":
+        source.AutomaticToleranceOn()
+        _update([source])
+        fields = source.GetOutput().GetFieldData()
+        views, votes = (fields.GetArray(name).GetTuple1(0) for name in ("NumberOfViews", "BackgroundVotes"))
+        share = (views - votes) / views
 
     cubes = vtkVotingMarchingCubes()
     cubes.SetInputConnection(0, source.GetOutputPort(0))
     cubes.SetInputConnection(1, source.GetOutputPort(1))
-    cubes.SetShare(float(vote_share))
+    cubes.SetShare(share)
     cubes.SetEdgePlacement(_choice("edges", edges, _EDGES))
     filters = [source, cubes]
     if surface == "local-hull":
         hulls = vtkLocalHullSurfacer()
+        hulls.SetMode(_choice("mode", mode, _MODES))
+        hulls.SetIslandShare(float(drop_islands))
+        hulls.SetRepairSilhouettes(bool(repair))
+        hulls.SetAlignViews(bool(alignment))
+        hulls.SetCorrectField(bool(correction))
+        hulls.SetThinHulls(bool(thin_hulls))
         hulls.SetInputConnection(0, cubes.GetOutputPort(0))
         hulls.SetInputConnection(1, source.GetOutputPort(0))
         hulls.SetInputConnection(2, source.GetOutputPort(1))
@@ -133,7 +163,7 @@ def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", 
 
 
 def octree(masks, projections, depth=8, bounds=None, vote_share=1.0, outside="border", names=None):
-    """Carves the octree of silhouettes; the arguments are those of reconstruct().
+    """Carves the octree of silhouettes; the arguments are those of reconstruct(), all views needed by default.
 
     Returns an Octree: the octants that survived, with their centres and edge lengths.
 

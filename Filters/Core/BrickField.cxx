@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BrickField.h"
+
+#include "LatticeSurface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace silhouette
+{
+namespace
+{
+
+/** Half of a Gaussian's weights, from the middle, that add up to 1 over both halves. */
+std::vector<float> gaussian(double sigma)
+{
+  const int radius = std::max(1, int(std::ceil(3.0 * sigma)));
+  std::vector<float> kernel;
+  double sum = 0.0;
+  for (int i = 0; i <= radius; ++i)
+  {
+    kernel.push_back(float(std::exp(-0.5 * i * i / (sigma * sigma))));
+    sum += (i == 0 ? 1.0 : 2.0) * kernel.back();
+  }
+  for (float& weight : kernel)
+  {
+    weight = float(weight / sum);
+  }
+  return kernel;
+}
+
+std::size_t localIndex(int axis, int along, int a, int b)
+{
+  LatticePoint p;
+  (axis == 0 ? p.i : axis == 1 ? p.j : p.k) = along;
+  (axis == 0 ? p.j : p.i) = a;
+  (axis == 2 ? p.j : p.k) = b;
+  return std::size_t(mortonCode(p));
+}
+
+} // namespace
+
+BrickField::BrickField(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin)
+  : TheLattice(lattice)
+{
+  const int greatest = lattice.cells() / BrickSize;
+  std::uint64_t before = ~std::uint64_t(0);
+  for (const std::uint64_t cell : cells)
+  {
+    const LatticePoint p = fromMorton(cell);
+    const auto low = [&](int x) { return std::max(x - margin, 0) / BrickSize; };
+    const auto high = [&](int x) { return std::min((x + 1 + margin) / BrickSize, greatest); };
+    // Neighbouring cells mostly ask for the same bricks.
+    const std::uint64_t asked = mortonCode({ low(p.i) * 2 + (low(p.i) < high(p.i)), low(p.j) * 2 + (low(p.j) < high(p.j)),
+      low(p.k) * 2 + (low(p.k) < high(p.k)) });
+    if (asked == before && margin < BrickSize / 2)
+    {
+      continue;
+    }
+    before = asked;
+    for (int k = low(p.k); k <= high(p.k); ++k)
+    {
+      for (int j = low(p.j); j <= high(p.j); ++j)
+      {
+        for (int i = low(p.i); i <= high(p.i); ++i)
+        {
+          this->Bricks.push_back(mortonCode({ i, j, k }));
+        }
+      }
+    }
+    if (this->Bricks.size() > (std::size_t(1) << 16) && this->Bricks.size() == this->Bricks.capacity())
+    {
+      std::sort(this->Bricks.begin(), this->Bricks.end());
+      this->Bricks.erase(std::unique(this->Bricks.begin(), this->Bricks.end()), this->Bricks.end());
+    }
+  }
+  std::sort(this->Bricks.begin(), this->Bricks.end());
+  this->Bricks.erase(std::unique(this->Bricks.begin(), this->Bricks.end()), this->Bricks.end());
+  this->Values.assign(this->Bricks.size() * BrickPoints, 0.0f);
+}
+
+std::ptrdiff_t BrickField::findBrick(std::uint64_t brick) const
+{
+  const auto at = std::lower_bound(this->Bricks.begin(), this->Bricks.end(), brick);
+  return at != this->Bricks.end() && *at == brick ? at - this->Bricks.begin() : -1;
+}
+
+std::ptrdiff_t BrickField::find(std::uint64_t point) const
+{
+  const std::ptrdiff_t brick = this->findBrick(point / BrickPoints);
+  return brick < 0 ? -1 : brick * std::ptrdiff_t(BrickPoints) + std::ptrdiff_t(point % BrickPoints);
+}
+
+void BrickField::smoothAlong(int axis, const std::vector<float>& kernel, Execution& execution)
+{
+  const int radius = int(kernel.size()) - 1;
+  const int reach = (radius + BrickSize - 1) / BrickSize; // in bricks
+  std::vector<float> result(this->Values.size());
+  execution.forRanges(this->Bricks.size(), 8,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::vector<std::ptrdiff_t> beside(2 * reach + 1);
+      std::vector<float> line(BrickSize * beside.size());
+      for (std::size_t brick = first; brick < last; ++brick)
+      {
+        const LatticePoint p = fromMorton(this->Bricks[brick]);
+        beside[reach] = std::ptrdiff_t(brick);
+        for (int side = -1; side <= 1; side += 2)
+        {
+          for (int n = 1; n <= reach; ++n)
+          {
+            LatticePoint q = p;
+            std::int32_t& along = axis == 0 ? q.i : axis == 1 ? q.j : q.k;
+            along += side * n;
+            const std::ptrdiff_t nearer = beside[reach + side * (n - 1)];
+            beside[reach + side * n] = nearer < 0 || along < 0 ? -1 : this->findBrick(mortonCode(q));
+          }
+        }
+        for (int ab = 0; ab < BrickSize * BrickSize; ++ab)
+        {
+          const int a = ab % BrickSize, b = ab / BrickSize;
+          const auto load = [&](int slot)
+          {
+            for (int t = 0; beside[slot] >= 0 && t < BrickSize; ++t)
+            {
+              line[slot * BrickSize + t] = this->Values[beside[slot] * BrickPoints + localIndex(axis, t, a, b)];
+            }
+          };
+          load(reach);
+          for (int n = 1; n <= reach; ++n)
+          {
+            float* low = &line[(reach - n) * BrickSize];
+            float* high = &line[(reach + n) * BrickSize];
+            std::fill(low, low + BrickSize, low[BrickSize]);
+            std::fill(high, high + BrickSize, high[-1]);
+            load(reach - n);
+            load(reach + n);
+          }
+          for (int t = 0; t < BrickSize; ++t)
+          {
+            const float* middle = &line[reach * BrickSize + t];
+            float sum = kernel[0] * middle[0];
+            for (int d = 1; d <= radius; ++d)
+            {
+              sum += kernel[d] * (middle[-d] + middle[d]);
+            }
+            result[brick * BrickPoints + localIndex(axis, t, a, b)] = sum;
+          }
+        }
+      }
+    });
+  this->Values.swap(result);
+}
+
+void BrickField::smooth(double sigma, Execution& execution)
+{
+  if (sigma <= 0.0)
+  {
+    return;
+  }
+  const std::vector<float> kernel = gaussian(sigma);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->smoothAlong(axis, kernel, execution);
+  }
+}
+
+std::vector<std::uint64_t> BrickField::mixedCells(Execution& execution) const
+{
+  std::vector<std::vector<std::uint64_t>> found(this->Bricks.size());
+  execution.forRanges(this->Bricks.size(), 16,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::array<std::ptrdiff_t, 8> bricks;
+      for (std::size_t brick = first; brick < last; ++brick)
+      {
+        const LatticePoint b = fromMorton(this->Bricks[brick]);
+        for (int n = 0; n < 8; ++n)
+        {
+          bricks[n] = n == 0 ? std::ptrdiff_t(brick) : this->findBrick(mortonCode(b + cornerOffset(n)));
+        }
+        for (std::uint64_t local = 0; local < BrickPoints; ++local)
+        {
+          const LatticePoint p = fromMorton(local);
+          int inside = 0, known = 0;
+          for (int n = 0; n < 8; ++n)
+          {
+            const LatticePoint q = p + cornerOffset(n);
+            const int over = (q.i >> 3) | (q.j >> 3) << 1 | (q.k >> 3) << 2;
+            if (bricks[over] >= 0)
+            {
+              ++known;
+              inside += this->Values[bricks[over] * BrickPoints + mortonCode({ q.i & 7, q.j & 7, q.k & 7 })] > 0.0f;
+            }
+          }
+          const std::uint64_t cell = this->Bricks[brick] * BrickPoints + local;
+          if (known == 8 && inside > 0 && inside < 8 && this->TheLattice.hasCell(fromMorton(cell)))
+          {
+            found[brick].push_back(cell);
+          }
+        }
+      }
+    });
+  std::vector<std::uint64_t> cells;
+  for (const auto& some : found)
+  {
+    cells.insert(cells.end(), some.begin(), some.end());
+  }
+  return cells;
+}
+
+Mesh BrickField::contourMesh(Execution& execution) const
+{
+  const CornerShell shell = makeCornerShell(this->mixedCells(execution), execution);
+  std::vector<float> value(shell.corners.size());
+  std::vector<std::uint8_t> inside(shell.corners.size());
+  execution.forRanges(value.size(), 1024,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        value[c] = this->Values[this->find(shell.corners[c])];
+        inside[c] = value[c] > 0.0f;
+      }
+    });
+  const LatticeSurface surface = contour(shell, inside, execution);
+  Mesh mesh;
+  mesh.triangles = surface.triangles;
+  mesh.points.resize(surface.edges.size());
+  execution.forRanges(mesh.points.size(), 1024,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t e = first; e < last; ++e)
+      {
+        const CrossedEdge& edge = surface.edges[e];
+        const double a = value[edge.inside], b = value[edge.outside];
+        const double t = std::clamp(a / (a - b), CrossingMargin, 1.0 - CrossingMargin);
+        mesh.points[e] = crossingPosition(this->TheLattice, shell, edge, t);
+      }
+    });
+  return mesh;
+}
+
+} // namespace silhouette

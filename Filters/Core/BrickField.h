@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A field on lattice points, kept in bricks of 8 x 8 x 8 points where it is needed: a band around a surface.
+ */
+#pragma once
+
+#include "Execution.h"
+#include "Lattice.h"
+#include "Mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace silhouette
+{
+
+/** Values in octants, positive inside, in Morton order of the points. */
+class BrickField
+{
+public:
+  static constexpr int BrickSize = 8;
+  static constexpr std::size_t BrickPoints = 512;
+
+  BrickField() = default;
+  /** Bricks that hold a point within `margin` octants of one of the given leaf cells (Morton codes). */
+  BrickField(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin);
+
+  const Lattice& lattice() const { return this->TheLattice; }
+  /** Morton codes of the bricks, ascending; a brick's points have the codes 512 b to 512 b + 511. */
+  const std::vector<std::uint64_t>& bricks() const { return this->Bricks; }
+  std::vector<float>& values() { return this->Values; }
+  const std::vector<float>& values() const { return this->Values; }
+  std::size_t size() const { return this->Values.size(); }
+  /** Morton code of the n-th point. It may lie beyond the lattice, by less than a brick. */
+  std::uint64_t code(std::size_t n) const { return this->Bricks[n / BrickPoints] * BrickPoints + n % BrickPoints; }
+  /** Index of a brick, or -1. */
+  std::ptrdiff_t findBrick(std::uint64_t brick) const;
+  /** Index of a point, or -1. */
+  std::ptrdiff_t find(std::uint64_t point) const;
+
+  /** Gaussian smoothing of standard deviation `sigma` octants; where bricks end the last value goes on. */
+  void smooth(double sigma, Execution& execution);
+  /** Codes of the leaf cells that have corners of both signs, ascending; a value of 0 is outside. */
+  std::vector<std::uint64_t> mixedCells(Execution& execution) const;
+  /** The surface where the field is 0, by marching cubes with linear interpolation. */
+  Mesh contourMesh(Execution& execution) const;
+
+private:
+  void smoothAlong(int axis, const std::vector<float>& kernel, Execution& execution);
+
+  Lattice TheLattice;
+  std::vector<std::uint64_t> Bricks;
+  std::vector<float> Values;
+};
+
+} // namespace silhouette

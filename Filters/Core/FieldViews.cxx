@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FieldViews.h"
+
+#include "SilhouetteRendering.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace silhouette
+{
+namespace
+{
+
+/** How many pixels a step of one octant across the view moves a point: the root of the mean over u and v. */
+double scaleAt(const LatticeProjection& projection, const HomogeneousPixel& h)
+{
+  const double u = h.U / h.W, v = h.V / h.W;
+  double square = 0.0;
+  for (const auto& step : projection.step)
+  {
+    const double du = step[0] - u * step[2], dv = step[1] - v * step[2];
+    square += 0.5 * (du * du + dv * dv);
+  }
+  return std::sqrt(square) / h.W;
+}
+
+} // namespace
+
+FieldViews::FieldViews(const PreparedViews& views, const Lattice& lattice, double reach)
+  : Views(&views)
+  , TheLattice(lattice)
+  , Reach(reach)
+  , Shifts(views.size(), Vector2::Zero())
+  , Projections(views.size())
+  , OnLattice(views.size())
+  , CentreScale(views.size(), 1.0)
+  , DepthScale(views.size(), 1.0)
+  , Observed(views.size())
+{
+  const int middle = lattice.cells() / 2;
+  for (int view = 0; view < views.size(); ++view)
+  {
+    this->project(view);
+    const HomogeneousPixel h = this->OnLattice[view]({ middle, middle, middle });
+    if (h.W > this->OnLattice[view].minimumDepth)
+    {
+      this->CentreScale[view] = scaleAt(this->OnLattice[view], h);
+      this->DepthScale[view] = 1.0 / (h.W * this->CentreScale[view]);
+    }
+  }
+}
+
+void FieldViews::observe(const std::vector<int>& views, Execution& execution)
+{
+  execution.forRanges(views.size(), 1,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        DistanceMap& map = this->Observed[views[i]];
+        if (map.width == 0)
+        {
+          const PreparedView& view = (*this->Views)[views[i]];
+          // Octants nearer to the camera than the middle are larger.
+          const double pixels = 1.5 * this->Reach * this->CentreScale[views[i]];
+          map = distanceMap(view.silhouette(), view.width, view.height, pixels);
+        }
+      }
+    });
+}
+
+void FieldViews::project(int view)
+{
+  Projection& projection = this->Projections[view];
+  projection = (*this->Views)[view].projection;
+  projection.row(0) += this->Shifts[view][0] * projection.row(2);
+  projection.row(1) += this->Shifts[view][1] * projection.row(2);
+  this->OnLattice[view] = LatticeProjection(projection, this->TheLattice);
+}
+
+void FieldViews::addShift(int view, const Vector2& shift)
+{
+  this->Shifts[view] += shift;
+  this->project(view);
+}
+
+FieldViews::Place FieldViews::place(int view, const LatticePoint& p) const
+{
+  const LatticeProjection& projection = this->OnLattice[view];
+  const HomogeneousPixel h = projection(p);
+  if (!(h.W > projection.minimumDepth))
+  {
+    return {};
+  }
+  const double inverse = 1.0 / h.W;
+  Place place{ h.U * inverse, h.V * inverse, h.W * this->DepthScale[view] };
+  const PreparedView& seen = (*this->Views)[view];
+  if (place.u < -0.5 || place.v < -0.5 || place.u >= seen.width - 0.5 || place.v >= seen.height - 0.5)
+  {
+    const int column = PreparedView::nearestPixel(place.u, seen.width);
+    const int row = PreparedView::nearestPixel(place.v, seen.height);
+    if (seen.pixelVote(column, row) == Vote::Abstain)
+    {
+      place.octantsPerPixel = 0.0;
+    }
+  }
+  return place;
+}
+
+std::vector<BinaryImage> FieldViews::render(const Mesh& mesh, const std::vector<int>& views, Execution& execution) const
+{
+  std::vector<BinaryImage> images(views.size());
+  execution.forRanges(views.size(), 1,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const PreparedView& view = (*this->Views)[views[i]];
+        images[i] = renderSilhouette(mesh, this->Projections[views[i]], view.width, view.height);
+      }
+    });
+  return images;
+}
+
+std::vector<DistanceMap> FieldViews::distances(const std::vector<BinaryImage>& images, Execution& execution) const
+{
+  std::vector<DistanceMap> maps(images.size());
+  execution.forRanges(images.size(), 1,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        maps[i] = distanceMap(images[i].pixels.data(), images[i].width, images[i].height, this->Observed[i].reach);
+      }
+    });
+  return maps;
+}
+
+} // namespace silhouette

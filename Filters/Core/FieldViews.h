@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The views as a field over space: how far, in octants, does a lattice point lie inside a view's silhouette?
+ */
+#pragma once
+
+#include "DistanceMap.h"
+#include "Mesh.h"
+#include "PreparedViews.h"
+
+#include <vector>
+
+namespace silhouette
+{
+
+class FieldViews
+{
+public:
+  /** Distances will be exact up to `reach` octants and cut off there. `views` is not copied and has to outlive this. */
+  FieldViews(const PreparedViews& views, const Lattice& lattice, double reach);
+
+  /** Make the observed silhouettes' distances of these views, where they are not made yet. Cost: distanceMap() of each. */
+  void observe(const std::vector<int>& views, Execution& execution);
+
+  int size() const { return this->Views->size(); }
+  const Lattice& lattice() const { return this->TheLattice; }
+  double reach() const { return this->Reach; }
+  /** The observed silhouette's distances; observe() has made them. */
+  const DistanceMap& observed(int view) const { return this->Observed[view]; }
+
+  /** The silhouettes of a mesh, as the views (shifted) would see it: one image for each view asked for. */
+  std::vector<BinaryImage> render(const Mesh& mesh, const std::vector<int>& views, Execution& execution) const;
+  /** Their distances. */
+  std::vector<DistanceMap> distances(const std::vector<BinaryImage>& images, Execution& execution) const;
+
+  /** px: what is added to every projected point of a view. */
+  const Vector2& shift(int view) const { return this->Shifts[view]; }
+  void addShift(int view, const Vector2& shift);
+  /** Pixels for an octant at the lattice's centre of interest. */
+  double pixelsPerOctant(int view) const { return this->CentreScale[view]; }
+
+  /** Where a lattice point falls. */
+  struct Place
+  {
+    double u = 0.0;
+    double v = 0.0;
+    double octantsPerPixel = 0.0; ///< 0 where the view abstains
+  };
+  Place place(int view, const LatticePoint& p) const;
+  /** Octants inside the silhouette, cut off at the reach; the whole reach where the view abstains. */
+  float inside(const DistanceMap& map, const Place& place) const
+  {
+    return place.octantsPerPixel > 0.0
+      ? std::clamp(float(map.at(place.u, place.v) * place.octantsPerPixel), -float(this->Reach), float(this->Reach))
+      : float(this->Reach);
+  }
+
+private:
+  void project(int view);
+
+  const PreparedViews* Views;
+  Lattice TheLattice;
+  double Reach;
+  std::vector<Vector2> Shifts;
+  std::vector<Projection> Projections; ///< shifted
+  std::vector<LatticeProjection> OnLattice; ///< shifted
+  std::vector<double> CentreScale;
+  std::vector<double> DepthScale; ///< octants a pixel for each unit of W, as at the lattice's middle
+  std::vector<DistanceMap> Observed;
+};
+
+} // namespace silhouette

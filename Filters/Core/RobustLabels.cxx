@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RobustLabels.h"
+
+#include "Carving.h"
+#include "LatticeRegions.h"
+#include "VotingMarchingCubes.h"
+
+#include <algorithm>
+#include <array>
+
+namespace silhouette
+{
+namespace
+{
+
+void sortUnique(std::vector<std::uint64_t>& codes)
+{
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+}
+
+/** Carve the repaired views and make their surface, with as many background votes as before. */
+void carveAgain(const Octree& octree, CorrectedCapture& capture, Execution& execution)
+{
+  CarveOptions carving;
+  carving.backgroundVotes = octree.backgroundVotes;
+  Phase first(execution, 0.0, 0.6);
+  capture.recarved = carve(LatticeViews(*capture.repaired, octree.lattice), carving, first);
+  VotingOptions voting;
+  voting.share = 1.0 - double(octree.backgroundVotes) / octree.viewCount;
+  Phase second(execution, 0.6, 1.0);
+  capture.surface = votingMarchingCubes(*capture.recarved, *capture.repaired, voting, second).mesh;
+}
+
+/**
+ * Cells of the field's bricks that lie inside by the field and in a background octant, or outside by the field and in
+ * an inside octant.
+ */
+std::vector<std::uint64_t> disputedCells(const Octree& octree, const BrickField& field, Execution& execution)
+{
+  std::vector<std::vector<std::uint64_t>> found(field.bricks().size());
+  execution.forRanges(found.size(), 8,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t n = first * BrickField::BrickPoints; n < last * BrickField::BrickPoints; ++n)
+      {
+        const std::uint64_t code = field.code(n);
+        const LatticePoint cell = fromMorton(code);
+        if (!octree.lattice.hasCell(cell))
+        {
+          continue;
+        }
+        const auto location = octree.locate(cell);
+        const bool inside = field.values()[n] > 0.0f;
+        if ((inside && location.state == OctantState::Background) || (!inside && location.state == OctantState::Inside))
+        {
+          found[n / BrickField::BrickPoints].push_back(code);
+        }
+      }
+    });
+  std::vector<std::uint64_t> cells;
+  for (const auto& some : found)
+  {
+    cells.insert(cells.end(), some.begin(), some.end());
+  }
+  return cells;
+}
+
+/** Last-generation inside octants of `octree` without an inside corner by the labels' source: they need covering too. */
+std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLabels& labels)
+{
+  std::vector<std::uint64_t> cells;
+  for (const std::uint64_t cell : leafCells(octree, OctantState::Inside))
+  {
+    bool inside = false;
+    for (int n = 0; n < 8; ++n)
+    {
+      inside = inside || labels.insideAt(fromMorton(cell) + cornerOffset(n));
+    }
+    if (!inside)
+    {
+      cells.push_back(cell);
+    }
+  }
+  return cells;
+}
+
+LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const PreparedViews& views, const CorrectedCapture& capture,
+  Execution& execution)
+{
+  return capture.correction.field ? LatticeLabels(octree, std::move(shell), *capture.correction.field)
+                                  : LatticeLabels(octree, std::move(shell), views, execution);
+}
+
+} // namespace
+
+CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
+{
+  std::vector<std::uint64_t> cells = shell.cells;
+  for (const std::uint64_t point : points)
+  {
+    const LatticePoint p = fromMorton(point);
+    for (int n = 0; n < 8; ++n)
+    {
+      const LatticePoint o = cornerOffset(n);
+      cells.push_back(mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k }));
+    }
+  }
+  sortUnique(cells);
+  return makeCornerShell(std::move(cells), execution);
+}
+
+CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, const CornerShell& shell, const PreparedViews& views,
+  const LocalHullOptions& options, Execution& execution)
+{
+  CorrectedCapture capture;
+  if (options.repairSilhouettes)
+  {
+    Phase repairing(execution, 0.0, 0.2);
+    SilhouetteRepair repair = repairSilhouettes(octree, shell, views, options.repair, repairing);
+    for (std::size_t view = 0; view < repair.blobs.size(); ++view)
+    {
+      capture.repairedPixels += repair.blobs[view] + repair.speckles[view];
+    }
+    capture.repaired = std::move(repair.views);
+  }
+  if (capture.repaired)
+  {
+    Phase carving(execution, 0.2, 0.4);
+    carveAgain(octree, capture, carving);
+  }
+  Phase correcting(execution, 0.4, 1.0);
+  capture.correction = correctField(capture.surface ? *capture.surface : imperfect, octree.lattice,
+    capture.repaired ? *capture.repaired : views, options.correction, correcting);
+  return capture;
+}
+
+LatticeLabels correctedLabels(const Octree& octree, const CornerShell& shell, const std::vector<std::uint64_t>& points,
+  const PreparedViews& views, const CorrectedCapture& capture, Execution& execution)
+{
+  const Octree& base = capture.recarved ? *capture.recarved : octree;
+  const PreparedViews& used = capture.repaired ? *capture.repaired : views;
+  if (!capture.recarved && !capture.correction.field)
+  {
+    return makeLabels(octree, points.empty() ? shell : extendedShell(shell, points, execution), views, capture, execution);
+  }
+  CornerShell wide = shell;
+  if (capture.recarved)
+  {
+    const auto more = leafCells(base, OctantState::Intersection);
+    wide.cells.insert(wide.cells.end(), more.begin(), more.end());
+  }
+  if (const auto& field = capture.correction.field)
+  {
+    for (const auto& more : { field->mixedCells(execution), disputedCells(base, *field, execution) })
+    {
+      wide.cells.insert(wide.cells.end(), more.begin(), more.end());
+    }
+  }
+  wide = extendedShell(wide, points, execution);
+  std::vector<std::uint64_t> survivors = shell.cells;
+  LatticeLabels labels = makeLabels(base, wide, used, capture, execution);
+  const auto disowned = disownedOctants(octree, labels);
+  if (!disowned.empty())
+  {
+    survivors.insert(survivors.end(), disowned.begin(), disowned.end());
+    sortUnique(survivors);
+    wide.cells.insert(wide.cells.end(), disowned.begin(), disowned.end());
+    labels = makeLabels(base, extendedShell(wide, {}, execution), used, capture, execution);
+  }
+  labels.setSurvivors(survivors);
+  dropUnsupported(labels);
+  return labels;
+}
+
+} // namespace silhouette

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * What the Robust mode of the local hull surfacer starts from: silhouettes repaired, views aligned, the field corrected, as far as the capture needs
+ * it, and lattice labels made from the result (Documentation/method.md, section 4).
+ */
+#pragma once
+
+#include "LocalHullSurface.h"
+#include "SurvivorBridges.h"
+
+#include <optional>
+
+namespace silhouette
+{
+
+/** The capture as Robust takes it. Not to be copied: parts point to each other. */
+struct CorrectedCapture
+{
+  std::optional<PreparedViews> repaired; ///< the views with repaired silhouettes, where any were repaired
+  std::optional<Octree> recarved;        ///< their octree
+  std::optional<Mesh> surface;           ///< its surface
+  FieldCorrection correction;
+  std::uint64_t repairedPixels = 0;
+};
+
+/** Repair and correct. `shell` is that of the octree's intersection octants. */
+CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, const CornerShell& shell, const PreparedViews& views,
+  const LocalHullOptions& options, Execution& execution);
+
+/**
+ * Labels of a shell that holds the survivors of `octree`, `points` with the cells around them, and all that the corrected capture's surface
+ * passes. What of the corrected surface holds no survivor is left out.
+ */
+LatticeLabels correctedLabels(const Octree& octree, const CornerShell& shell, const std::vector<std::uint64_t>& points,
+  const PreparedViews& views, const CorrectedCapture& capture, Execution& execution);
+
+/** The shell with the eight cells around each of the given points, none of which is on the border. */
+CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution);
+
+} // namespace silhouette

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * What a view says against all others: shared by the repairs of silhouettes.
+ */
+#pragma once
+
+#include "CornerShell.h"
+#include "PreparedViews.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace silhouette
+{
+
+constexpr int FinestRefinement = 4; ///< halvings of an octant when pixels are filled
+
+/** The box of the survivors, as lattice points. */
+struct SurvivorBox
+{
+  LatticePoint centre;
+  double extent = 0.0; ///< octants along its longest side
+};
+
+/** The shell must have corners. */
+inline SurvivorBox boxOfSurvivors(const CornerShell& shell)
+{
+  const LatticePoint any = fromMorton(shell.corners.front());
+  LatticePoint low = any, high = any;
+  for (const std::uint64_t corner : shell.corners)
+  {
+    const LatticePoint p = fromMorton(corner);
+    low = {std::min(low.i, p.i), std::min(low.j, p.j), std::min(low.k, p.k)};
+    high = {std::max(high.i, p.i), std::max(high.j, p.j), std::max(high.k, p.k)};
+  }
+  SurvivorBox box;
+  box.centre = {(low.i + high.i) / 2, (low.j + high.j) / 2, (low.k + high.k) / 2};
+  box.extent = std::max({high.i - low.i, high.j - low.j, high.k - low.k});
+  return box;
+}
+
+/** Pixels that a lattice step measures across the line of sight; 0 behind the camera. */
+inline double pixelsPerOctant(const LatticeProjection& projection, const LatticePoint& p)
+{
+  const auto h = projection(p);
+  if (!(h.W > projection.minimumDepth))
+  {
+    return 0.0;
+  }
+  double squares = 0.0;
+  for (const auto& step : projection.step)
+  {
+    const double u = (step[0] - h.U / h.W * step[2]) / h.W;
+    const double v = (step[1] - h.V / h.W * step[2]) / h.W;
+    squares += u * u + v * v;
+  }
+  return std::sqrt(0.5 * squares); // of the three directions that share them, two lie across
+}
+
+/** The views as they came. */
+inline std::vector<View> copyViews(const PreparedViews& views)
+{
+  std::vector<View> copies(views.size());
+  for (int i = 0; i < views.size(); ++i)
+  {
+    copies[i].name = views[i].name;
+    copies[i].projection = views[i].projection;
+    copies[i].silhouette = {views[i].width, views[i].height, views[i].object};
+  }
+  return copies;
+}
+
+/** Which views call a lattice point background, as far as need be known. */
+struct Dissent
+{
+  int only = -1; ///< the only one, or -1
+  int last = -1; ///< the last one that was asked
+};
+
+/**
+ * Half of the views must call a point object for one to be the only dissenter: what hardly any view sees, one
+ * may well carve alone.
+ */
+inline Dissent dissentAt(const LatticeViews& views, const LatticePoint& p)
+{
+  Dissent dissent;
+  int object = 0;
+  for (int i = 0; i < views.size(); ++i)
+  {
+    const Vote vote = views.vote(i, p);
+    object += vote == Vote::Object;
+    if (vote == Vote::Background)
+    {
+      if (dissent.last >= 0)
+      {
+        return {-1, i};
+      }
+      dissent.last = i;
+    }
+  }
+  dissent.only = 2 * object >= views.size() ? dissent.last : -1;
+  return dissent;
+}
+
+inline bool isOfLattice(const LatticePoint& p, std::int32_t cells)
+{
+  return std::min({p.i, p.j, p.k}) >= 0 && std::max({p.i, p.j, p.k}) <= cells;
+}
+
+/** The lattice refined until an octant in the middle of the survivors is a pixel or two. */
+inline Lattice pixelLattice(const LatticeViews& views, const SurvivorBox& box)
+{
+  double pixels = 1.0;
+  for (int i = 0; i < views.size(); ++i)
+  {
+    pixels = std::max(pixels, pixelsPerOctant(views.projection(i), box.centre));
+  }
+  Lattice fine = views.lattice();
+  fine.depth += std::min({int(std::log2(pixels)), FinestRefinement, MaximumDepth - fine.depth});
+  return fine;
+}
+
+} // namespace silhouette

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SilhouetteRepair.h"
+
+#include "SilhouetteDissent.h"
+#include "SilhouetteSpeckles.h"
+#include "UnionFind.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace silhouette
+{
+namespace
+{
+
+constexpr int MostRounds = 4;          ///< where blobs cross, filling one may bare another
+constexpr double FewViewsChord = 3.0;  ///< over the number of views: extents that any view may cut
+constexpr double WrongViewChord = 0.7; ///< of the chord asked for, in a view that has a blob
+
+/** A corner that one view alone calls background. */
+struct Rejected
+{
+  std::uint64_t corner = 0;
+  std::int32_t view = -1;
+};
+
+void requireRange(const char* what, double value, double least, double greatest)
+{
+  if (!(value >= least && value <= greatest))
+  {
+    throw InvalidInput(std::string(what) + " " + std::to_string(value) + " is outside " +
+                       std::to_string(least) + " to " + std::to_string(greatest));
+  }
+}
+
+void check(const SilhouetteRepairOptions& options)
+{
+  constexpr double largest = 1e9; // octants; whatever is not finite is beyond it
+  requireRange("speckle area", options.speckleArea, 0.0, largest);
+  requireRange("speckle share", options.speckleShare, 0.0, 1.0);
+  requireRange("blob depth", options.blobDepth, 0.0, largest);
+  requireRange("blob chord", options.blobChord, 0.0, 1.0);
+  requireRange("blob corners", options.blobCorners, 1.0, largest);
+}
+
+/** Append those of `corners` that one view alone rejects. */
+void appendRejected(const LatticeViews& views, const std::vector<std::uint64_t>& corners,
+                    std::vector<Rejected>& rejected, Execution& execution)
+{
+  std::vector<std::int32_t> dissenter(corners.size());
+  execution.forRanges(corners.size(), 1024,
+                      [&](std::size_t first, std::size_t last)
+                      {
+                        for (std::size_t i = first; i < last; ++i)
+                        {
+                          dissenter[i] = dissentAt(views, fromMorton(corners[i])).only;
+                        }
+                      });
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    if (dissenter[i] >= 0)
+    {
+      rejected.push_back({corners[i], dissenter[i]});
+    }
+  }
+}
+
+void sortUnique(std::vector<std::uint64_t>& codes)
+{
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+}
+
+/**
+ * The corners that one view alone rejects, as far as steps along lattice edges reach them from the shell; by
+ * view, then by code. Breadth-first: a neighbour of one wave belongs to it, to the one before or to the next,
+ * so that two waves are all that need be remembered.
+ */
+std::vector<Rejected> findRejected(const LatticeViews& views, const CornerShell& shell, Execution& execution)
+{
+  const std::int32_t n = views.lattice().cells();
+  std::vector<Rejected> rejected;
+  std::vector<std::uint64_t> before, now = shell.corners, next, fresh;
+  for (std::size_t done = 0; !now.empty();)
+  {
+    execution.checkpoint(0.0);
+    appendRejected(views, now, rejected, execution);
+    next.clear();
+    for (; done < rejected.size(); ++done)
+    {
+      const LatticePoint p = fromMorton(rejected[done].corner);
+      for (int direction = 0; direction < 6; ++direction)
+      {
+        const int step = direction % 2 == 0 ? -1 : 1;
+        const LatticePoint q = {p.i + (direction / 2 == 0 ? step : 0), p.j + (direction / 2 == 1 ? step : 0),
+                                p.k + (direction / 2 == 2 ? step : 0)};
+        if (isOfLattice(q, n))
+        {
+          next.push_back(mortonCode(q));
+        }
+      }
+    }
+    sortUnique(next);
+    for (const auto* wave : {&before, &now})
+    {
+      fresh.clear();
+      std::set_difference(next.begin(), next.end(), wave->begin(), wave->end(), std::back_inserter(fresh));
+      next.swap(fresh);
+    }
+    before.swap(now);
+    now.swap(next);
+  }
+  std::sort(rejected.begin(), rejected.end(),
+            [](const Rejected& a, const Rejected& b)
+            { return a.view != b.view ? a.view < b.view : a.corner < b.corner; });
+  return rejected;
+}
+
+/** Is no object within `depth` octants of the corner, in the view that rejects it? */
+bool isDeep(const LatticeViews& views, const Rejected& rejected, double depth)
+{
+  const LatticeProjection& projection = views.projection(rejected.view);
+  const LatticePoint p = fromMorton(rejected.corner);
+  const auto h = projection(p);
+  const PreparedView& view = views.view(rejected.view);
+  const double u = h.U / h.W, v = h.V / h.W, radius = depth * pixelsPerOctant(projection, p);
+  // Three rectangles whose corners lie on the circle stand for the disc: a few table look-ups.
+  for (const double angle : {0.3926990816987241, 0.7853981633974483, 1.1780972450961724})
+  {
+    const double a = radius * std::cos(angle), b = radius * std::sin(angle);
+    const auto content = view.content(
+        PreparedView::nearestPixel(u - a, view.width), PreparedView::nearestPixel(u + a, view.width),
+        PreparedView::nearestPixel(v - b, view.height), PreparedView::nearestPixel(v + b, view.height));
+    if (content.object || content.abstain)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/**
+ * Components of corners of one view each, sorted as findRejected does, that are neighbours along edges or
+ * diagonals.
+ */
+UnionFind componentsOf(const std::vector<Rejected>& corners)
+{
+  UnionFind components(corners.size());
+  for (std::size_t c = 0; c < corners.size(); ++c)
+  {
+    const LatticePoint p = fromMorton(corners[c].corner);
+    for (int n = 14; n < 27; ++n) // the thirteen neighbours that follow 13, the corner itself
+    {
+      const LatticePoint q = p + LatticePoint{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+      if (std::min({q.i, q.j, q.k}) < 0)
+      {
+        continue;
+      }
+      const Rejected wanted{mortonCode(q), corners[c].view};
+      const auto at = std::lower_bound(corners.begin(), corners.end(), wanted,
+                                       [](const Rejected& a, const Rejected& b)
+                                       { return a.view != b.view ? a.view < b.view : a.corner < b.corner; });
+      if (at != corners.end() && at->view == wanted.view && at->corner == wanted.corner)
+      {
+        components.unite(std::uint32_t(c), std::uint32_t(at - corners.begin()));
+      }
+    }
+  }
+  return components;
+}
+
+/** Squares of an octant's size of the view's image that hold one of the corners. */
+std::size_t imageArea(const LatticeViews& views, const std::vector<Rejected>& corners, double pixels)
+{
+  const LatticeProjection& projection = views.projection(corners.front().view);
+  std::vector<std::uint64_t> squares;
+  for (const Rejected& rejected : corners)
+  {
+    const auto h = projection(fromMorton(rejected.corner));
+    const auto column = std::int32_t(std::floor(h.U / h.W / pixels)),
+               row = std::int32_t(std::floor(h.V / h.W / pixels));
+    squares.push_back(std::uint64_t(std::uint32_t(column)) << 32 | std::uint32_t(row));
+  }
+  sortUnique(squares);
+  return squares.size();
+}
+
+/** The corners of those components that are long along the view, by view. */
+std::vector<std::vector<std::uint64_t>> longAlongTheView(const LatticeViews& views,
+                                                         const std::vector<std::vector<Rejected>>& components,
+                                                         const SurvivorBox& box,
+                                                         const SilhouetteRepairOptions& options)
+{
+  std::vector<double> chords(components.size(), -1.0);
+  std::vector<double> longest(views.size(), -1.0);
+  for (std::size_t c = 0; c < components.size(); ++c)
+  {
+    if (components[c].size() >= std::size_t(options.blobCorners))
+    {
+      const Rejected& any = components[c].front();
+      const double pixels = pixelsPerOctant(views.projection(any.view), fromMorton(any.corner));
+      chords[c] = double(components[c].size()) / double(imageArea(views, components[c], pixels));
+      longest[any.view] = std::max(longest[any.view], chords[c]);
+    }
+  }
+  const double chord = std::max(options.blobChord, FewViewsChord / views.size()) * box.extent;
+  std::vector<std::vector<std::uint64_t>> blobs(views.size());
+  for (std::size_t c = 0; c < components.size(); ++c)
+  {
+    if (chords[c] >= 0.0)
+    {
+      const int view = components[c].front().view;
+      // A view that is wrong elsewhere is trusted less: where a disc crosses the contour, its chord is short.
+      if (longest[view] >= chord && chords[c] >= WrongViewChord * chord)
+      {
+        for (const Rejected& corner : components[c])
+        {
+          blobs[view].push_back(corner.corner);
+        }
+      }
+    }
+  }
+  return blobs;
+}
+
+/** The deep corners of blobs: of components that are long along the view, by view. */
+std::vector<std::vector<std::uint64_t>> findBlobs(const LatticeViews& views, const CornerShell& shell,
+                                                  const SurvivorBox& box,
+                                                  const SilhouetteRepairOptions& options,
+                                                  Execution& execution)
+{
+  std::vector<Rejected> corners = findRejected(views, shell, execution);
+  std::vector<std::uint8_t> deep(corners.size(), 0);
+  execution.forRanges(corners.size(), 1024,
+                      [&](std::size_t first, std::size_t last)
+                      {
+                        for (std::size_t c = first; c < last; ++c)
+                        {
+                          deep[c] = isDeep(views, corners[c], options.blobDepth) ? 1 : 0;
+                        }
+                      });
+  const Rejected* start = corners.data();
+  corners.erase(std::remove_if(corners.begin(), corners.end(),
+                               [&](const Rejected& c) { return deep[&c - start] == 0; }),
+                corners.end());
+
+  UnionFind components = componentsOf(corners);
+  std::vector<std::vector<Rejected>> members(corners.size());
+  for (std::size_t c = 0; c < corners.size(); ++c)
+  {
+    members[components.find(std::uint32_t(c))].push_back(corners[c]);
+  }
+  return longAlongTheView(views, members, box, options);
+}
+
+/** The corners within `reach` steps of the given ones. */
+std::vector<std::uint64_t> dilated(std::vector<std::uint64_t> corners, int reach, std::int32_t n)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::vector<std::uint64_t> wider;
+    for (const std::uint64_t corner : corners)
+    {
+      const LatticePoint p = fromMorton(corner);
+      for (int step = -reach; step <= reach; ++step)
+      {
+        const LatticePoint q = {p.i + (axis == 0 ? step : 0), p.j + (axis == 1 ? step : 0),
+                                p.k + (axis == 2 ? step : 0)};
+        if (isOfLattice(q, n))
+        {
+          wider.push_back(mortonCode(q));
+        }
+      }
+    }
+    sortUnique(wider);
+    corners.swap(wider);
+  }
+  return corners;
+}
+
+/**
+ * Fill the background pixels of view `i` that a point near the blob's corners falls into which every other
+ * view calls object. The points are those of a lattice about as fine as the pixels, `halvings` finer than the
+ * octree's, so that the contour stays where the other views have it. Returns how many.
+ */
+std::uint64_t fillBlobs(const LatticeViews& fine, int halvings, int i,
+                        const std::vector<std::uint64_t>& corners, BinaryImage& mask)
+{
+  std::uint64_t filled = 0;
+  const std::int32_t size = std::int32_t(1) << halvings, n = fine.lattice().cells();
+  const LatticeProjection& projection = fine.projection(i);
+  int objector = i; // the view that rejected the last point is likely to reject the next one
+  for (const std::uint64_t corner : corners)
+  {
+    const LatticePoint p = fromMorton(corner);
+    for (std::int32_t s = 0; s < size * size * size; ++s)
+    {
+      const LatticePoint q = {p.i * size + s % size - size / 2, p.j * size + s / size % size - size / 2,
+                              p.k * size + s / size / size - size / 2};
+      const auto h = projection(q);
+      if (!isOfLattice(q, n) || !(h.W > projection.minimumDepth))
+      {
+        continue;
+      }
+      const int column = PreparedView::nearestPixel(h.U / h.W, mask.width);
+      const int row = PreparedView::nearestPixel(h.V / h.W, mask.height);
+      if (column < 0 || row < 0 || column >= mask.width || row >= mask.height || mask.at(column, row) != 0 ||
+          (objector != i && fine.vote(objector, q) == Vote::Background))
+      {
+        continue;
+      }
+      const Dissent dissent = dissentAt(fine, q);
+      if (dissent.only == i)
+      {
+        mask.at(column, row) = 1;
+        ++filled;
+      }
+      objector = dissent.last >= 0 ? dissent.last : i;
+    }
+  }
+  return filled;
+}
+
+/** The views with their blobs filled, or nothing where there are none; adds to `filled` by view. */
+std::optional<PreparedViews> withoutBlobs(const LatticeViews& lattice, const CornerShell& shell,
+                                          const SurvivorBox& box, const SilhouetteRepairOptions& options,
+                                          std::vector<std::uint64_t>& filled, Execution& execution)
+{
+  const PreparedViews& views = lattice.prepared();
+  const auto blobs = findBlobs(lattice, shell, box, options, execution);
+  if (std::all_of(blobs.begin(), blobs.end(), [](const auto& corners) { return corners.empty(); }))
+  {
+    return std::nullopt;
+  }
+  const Lattice finer = pixelLattice(lattice, box);
+  const int halvings = finer.depth - lattice.lattice().depth;
+  const LatticeViews fine(views, finer);
+  const int reach = 1 + int(std::ceil(std::min(options.blobDepth, double(lattice.lattice().cells()))));
+  std::vector<View> repaired = copyViews(views);
+  std::vector<std::uint64_t> counts(views.size(), 0);
+  execution.forRanges(views.size(), 1,
+                      [&](std::size_t first, std::size_t last)
+                      {
+                        for (std::size_t i = first; i < last; ++i)
+                        {
+                          const auto corners = dilated(blobs[i], reach, lattice.lattice().cells());
+                          counts[i] = fillBlobs(fine, halvings, int(i), corners, repaired[i].silhouette);
+                        }
+                      });
+  std::uint64_t total = 0;
+  for (int i = 0; i < views.size(); ++i)
+  {
+    filled[i] += counts[i];
+    total += counts[i];
+  }
+  return total > 0 ? std::optional<PreparedViews>(PreparedViews(repaired, views.options(), execution))
+                   : std::nullopt;
+}
+
+} // namespace
+
+SilhouetteRepair repairSilhouettes(const Octree& octree, const CornerShell& shell, const PreparedViews& views,
+                                   const SilhouetteRepairOptions& options, Execution& execution)
+{
+  check(options);
+  execution.checkpoint(0.0);
+  SilhouetteRepair result;
+  result.speckles.assign(views.size(), 0);
+  result.blobs.assign(views.size(), 0);
+  if (shell.corners.empty())
+  {
+    return result;
+  }
+  const SurvivorBox box = boxOfSurvivors(shell);
+  result.views =
+      withoutSpeckles(LatticeViews(views, octree.lattice), box, options, result.speckles, execution);
+  for (int round = 0; round < MostRounds; ++round)
+  {
+    Phase phase(execution, (round + 1.0) / (MostRounds + 1), (round + 2.0) / (MostRounds + 1));
+    phase.checkpoint(0.0);
+    const LatticeViews now(result.views ? *result.views : views, octree.lattice);
+    auto repaired = withoutBlobs(now, shell, box, options, result.blobs, phase);
+    if (!repaired)
+    {
+      break;
+    }
+    result.views = std::move(repaired);
+  }
+  execution.checkpoint(1.0);
+  return result;
+}
+
+} // namespace silhouette

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ViewAlignment.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace silhouette
+{
+namespace
+{
+
+constexpr double LeastThickness = 1.5; ///< octants
+constexpr double LeastShare = 0.2;     ///< of a view's contour places; where fewer are thick, the view says nothing
+
+/** Least squares of residual = constant - normal . shift over contour places. */
+class Fit
+{
+public:
+  Fit(const BinaryImage& image, const DistanceMap& map, double pixelsPerOctant)
+    : Image(image)
+    , Map(map)
+    , Scale(pixelsPerOctant)
+  {
+  }
+
+  void add(double u, double v, double limit)
+  {
+    ++this->Places;
+    const double residual = this->Map.at(u, v);
+    if (std::abs(residual) > limit || this->thin(u, v))
+    {
+      return;
+    }
+    this->Residuals.push_back(float(residual));
+    const Vector2 gradient = this->gradient(u, v);
+    const double length = gradient.norm();
+    if (length < 0.5)
+    {
+      return; // between two contours there is no normal
+    }
+    const Eigen::Vector3d row(-gradient[0] / length, -gradient[1] / length, 1.0);
+    this->Normal += row * row.transpose();
+    this->Right += residual * row;
+  }
+
+  ContourResidual result()
+  {
+    ContourResidual residual;
+    residual.count = this->Residuals.size();
+    if (residual.count < LeastShare * double(this->Places))
+    {
+      residual.count = 0;
+    }
+    if (residual.count > 0)
+    {
+      residual.mean = this->trimmedMean() / this->Scale;
+      // A little damping, so that a straight contour is not shifted along itself.
+      Eigen::Matrix3d normal = this->Normal;
+      normal.diagonal().array() += 1e-3 * normal.trace() + 1e-12;
+      residual.shift = normal.ldlt().solve(this->Right).head<2>();
+    }
+    return residual;
+  }
+
+private:
+  Vector2 gradient(double u, double v) const
+  {
+    const DistanceMap& map = this->Map;
+    return { map.at(u + 1.0, v) - map.at(u - 1.0, v), map.at(u, v + 1.0) - map.at(u, v - 1.0) };
+  }
+
+  /** Is the surface's silhouette thinner here than what noise is told from? Its ends and gaps would look like noise. */
+  bool thin(double u, double v) const
+  {
+    const Vector2 inward = this->gradient(u, v);
+    const double length = inward.norm();
+    if (length < 0.5)
+    {
+      return true;
+    }
+    const double step = LeastThickness * this->Scale / length;
+    const double column = std::floor(u + step * inward[0] + 0.5), row = std::floor(v + step * inward[1] + 0.5);
+    return !(column >= 0.0 && row >= 0.0 && column < this->Image.width && row < this->Image.height) ||
+      this->Image.at(int(column), int(row)) == 0;
+  }
+
+  /** Without the tenth at either end: what hides behind something else has no contour to be compared with. */
+  double trimmedMean()
+  {
+    const std::size_t cut = this->Residuals.size() / 10;
+    const auto first = this->Residuals.begin() + std::ptrdiff_t(cut);
+    const auto last = this->Residuals.end() - std::ptrdiff_t(cut);
+    std::nth_element(this->Residuals.begin(), first, this->Residuals.end());
+    std::nth_element(first, last - 1, this->Residuals.end());
+    return std::accumulate(first, last, 0.0) / double(last - first);
+  }
+
+  const BinaryImage& Image;
+  const DistanceMap& Map;
+  double Scale; ///< pixels for an octant
+  std::size_t Places = 0;
+  std::vector<float> Residuals;
+  Eigen::Matrix3d Normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d Right = Eigen::Vector3d::Zero();
+};
+
+/** Every place between two pixels of which one belongs to the surface. */
+ContourResidual compare(const BinaryImage& image, const DistanceMap& map, double limit, double pixelsPerOctant)
+{
+  Fit fit(image, map, pixelsPerOctant);
+  for (int row = 0; row < image.height; ++row)
+  {
+    const std::uint8_t* pixels = &image.pixels[std::size_t(row) * image.width];
+    const std::uint8_t* below = row + 1 < image.height ? pixels + image.width : pixels;
+    for (int column = 0; column < image.width; ++column)
+    {
+      if (column + 1 < image.width && pixels[column] != pixels[column + 1])
+      {
+        fit.add(column + 0.5, row, limit);
+      }
+      if (pixels[column] != below[column])
+      {
+        fit.add(column, row + 0.5, limit);
+      }
+    }
+  }
+  return fit.result();
+}
+
+} // namespace
+
+std::vector<ContourResidual> contourResiduals(
+  const FieldViews& fieldViews, const Mesh& surface, const std::vector<int>& views, double limit, Execution& execution)
+{
+  const std::vector<BinaryImage> images = fieldViews.render(surface, views, execution);
+  std::vector<ContourResidual> residuals(views.size());
+  execution.forRanges(views.size(), 1,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const double scale = fieldViews.pixelsPerOctant(views[i]);
+        residuals[i] = compare(images[i], fieldViews.observed(views[i]), limit * scale, scale);
+      }
+    });
+  return residuals;
+}
+
+double typicalResidual(const std::vector<ContourResidual>& residuals)
+{
+  double sum = 0.0, count = 0.0;
+  for (const auto& residual : residuals)
+  {
+    sum += residual.mean * double(residual.count);
+    count += double(residual.count);
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+} // namespace silhouette

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * How far do the observed contours lie from those of a surface, and what shift of each view would bring them nearer? (Documentation/
+ * method.md, section 4; the shift is the two-dimensional case of registration by silhouette coherence, Hernandez, Schmitt
+ * and Cipolla 2007.)
+ */
+#pragma once
+
+#include "FieldViews.h"
+
+namespace silhouette
+{
+
+/** One view's observed contour against a surface's. */
+struct ContourResidual
+{
+  std::size_t count = 0;            ///< contour places that were compared
+  double mean = 0.0;                ///< octants: how far the observed contour lies outside the surface's, trimmed by a tenth
+  Vector2 shift = Vector2::Zero();  ///< px: the least-squares shift of the surface's contour towards the observed one
+};
+
+/**
+ * Residuals of the given views. Places whose distance is more than `limit` octants, and where the surface's silhouette is
+ * thinner than one and a half, do not count; a view with few others says nothing. The shift is fitted together with a constant, so that a
+ * surface that is too small all around is not shifted. Cost: rendering, and a pass over the image.
+ */
+std::vector<ContourResidual> contourResiduals(
+  const FieldViews& fieldViews, const Mesh& surface, const std::vector<int>& views, double limit, Execution& execution);
+
+/** The mean of the residuals' means, by count; octants. */
+double typicalResidual(const std::vector<ContourResidual>& residuals);
+
+} // namespace silhouette

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BrickField.h"
+
+#include "CarvingTestCaptures.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+Lattice latticeOf(int depth)
+{
+  return { { Vector3(-1.1, -0.9, -1.0), 2.0 }, depth };
+}
+
+std::vector<std::uint64_t> randomCells(const Lattice& lattice, int count, Random& random)
+{
+  std::set<std::uint64_t> cells;
+  const int n = lattice.cells();
+  while (int(cells.size()) < count)
+  {
+    cells.insert(mortonCode({ random.below(n), random.below(n), random.below(n) }));
+  }
+  return { cells.begin(), cells.end() };
+}
+
+std::vector<std::uint64_t> allCells(const Lattice& lattice)
+{
+  std::vector<std::uint64_t> cells(std::size_t(1) << 3 * lattice.depth);
+  for (std::size_t c = 0; c < cells.size(); ++c)
+  {
+    cells[c] = c;
+  }
+  return cells;
+}
+
+void fill(BrickField& field, const std::function<double(const LatticePoint&)>& value)
+{
+  for (std::size_t n = 0; n < field.size(); ++n)
+  {
+    field.values()[n] = float(value(fromMorton(field.code(n))));
+  }
+}
+
+/** Cells around a sphere's surface, `centre` and `radius` in octants. */
+std::vector<std::uint64_t> sphereCells(const Lattice& lattice, const Vector3& centre, double radius)
+{
+  std::vector<std::uint64_t> cells;
+  for (const std::uint64_t cell : allCells(lattice))
+  {
+    const LatticePoint p = fromMorton(cell);
+    if (std::abs((Vector3(p.i + 0.5, p.j + 0.5, p.k + 0.5) - centre).norm() - radius) < 1.0)
+    {
+      cells.push_back(cell);
+    }
+  }
+  return cells;
+}
+
+BrickField sphereField(int depth, const Vector3& centre, double radius, int margin = 3)
+{
+  const Lattice lattice = latticeOf(depth);
+  BrickField field(lattice, sphereCells(lattice, centre, radius), margin);
+  fill(field, [&](const LatticePoint& p) { return radius - (Vector3(p.i, p.j, p.k) - centre).norm(); });
+  return field;
+}
+
+} // namespace
+
+TEST(BrickField, HoldsEveryPointNearItsCellsAndNoOtherBrick)
+{
+  Random random(1);
+  for (const int depth : { 1, 2, 3, 4, 6 })
+  {
+    const Lattice lattice = latticeOf(depth);
+    for (const int margin : { 0, 1, 3, 4, 9, 20 })
+    {
+      const auto cells = randomCells(lattice, std::min(5, 1 << 3 * depth), random);
+      const BrickField field(lattice, cells, margin);
+      std::set<std::uint64_t> needed;
+      const int n = lattice.cells();
+      for (const std::uint64_t cell : cells)
+      {
+        const LatticePoint c = fromMorton(cell);
+        const auto each = [&](int x, const std::function<void(int)>& call)
+        {
+          for (int at = std::max(x - margin, 0); at <= std::min(x + 1 + margin, n); ++at)
+          {
+            call(at);
+          }
+        };
+        each(c.k, [&](int k) { each(c.j, [&](int j) { each(c.i,
+          [&](int i) { needed.insert(mortonCode({ i, j, k }) / BrickField::BrickPoints); }); }); });
+      }
+      EXPECT_EQ(field.bricks(), std::vector<std::uint64_t>(needed.begin(), needed.end()))
+        << "depth " << depth << " margin " << margin;
+      EXPECT_EQ(field.size(), needed.size() * BrickField::BrickPoints);
+    }
+  }
+  EXPECT_EQ(BrickField(latticeOf(5), {}, 3).size(), 0u);
+}
+
+TEST(BrickField, FindsItsPointsAndNoOthers)
+{
+  Random random(2);
+  const BrickField field(latticeOf(6), randomCells(latticeOf(6), 4, random), 2);
+  const std::set<std::uint64_t> bricks(field.bricks().begin(), field.bricks().end());
+  for (std::uint64_t brick = 0; brick < 729; ++brick)
+  {
+    const std::ptrdiff_t at = field.findBrick(brick);
+    EXPECT_EQ(at >= 0, bricks.count(brick) == 1) << brick;
+    EXPECT_TRUE(at < 0 || field.bricks()[at] == brick);
+  }
+  std::size_t found = 0;
+  for (std::uint64_t point = 0; point < 729 * BrickField::BrickPoints; ++point)
+  {
+    const std::ptrdiff_t at = field.find(point);
+    found += at >= 0;
+    EXPECT_TRUE(at < 0 ? bricks.count(point / BrickField::BrickPoints) == 0 : field.code(at) == point);
+  }
+  for (std::size_t n = 0; n < field.size(); ++n)
+  {
+    EXPECT_EQ(field.find(field.code(n)), std::ptrdiff_t(n));
+  }
+  EXPECT_LE(found, field.size());
+  EXPECT_GT(found, 0u);
+  EXPECT_EQ(BrickField().find(0), -1);
+}
+
+TEST(BrickField, SmoothingKeepsLinearFunctionsAwayFromMissingBricks)
+{
+  Execution execution;
+  const Lattice lattice = latticeOf(6);
+  Random random(3);
+  std::vector<std::uint64_t> cells; // a bar along each axis, three bricks thick, that cross
+  for (const std::uint64_t cell : allCells(lattice))
+  {
+    const LatticePoint p = fromMorton(cell);
+    const int middle = (p.i / 24 == 1) + (p.j / 24 == 1) + (p.k / 24 == 1);
+    if (middle >= 2)
+    {
+      cells.push_back(cell);
+    }
+  }
+  for (const double sigma : { 0.3, 1.0, 2.5, 3.2 })
+  {
+    BrickField field(lattice, cells, 0);
+    const auto linear = [](const LatticePoint& p) { return 0.3 * p.i - 0.7 * p.j + 0.2 * p.k + 5.0; };
+    fill(field, linear);
+    field.smooth(sigma, execution);
+    const int radius = std::max(1, int(std::ceil(3.0 * sigma)));
+    int interior = 0, changed = 0;
+    for (std::size_t n = 0; n < field.size(); ++n)
+    {
+      const LatticePoint p = fromMorton(field.code(n));
+      bool full = true; // does the field have values for the whole of the kernel?
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        const LatticePoint o = cornerOffset(corner);
+        const LatticePoint q{ p.i + (2 * o.i - 1) * radius, p.j + (2 * o.j - 1) * radius, p.k + (2 * o.k - 1) * radius };
+        full = full && q.i >= 0 && q.j >= 0 && q.k >= 0 && field.find(mortonCode(q)) >= 0;
+      }
+      const double error = std::abs(field.values()[n] - linear(p));
+      interior += full;
+      changed += !full && error > 0.05;
+      EXPECT_TRUE(!full || error < 2e-4) << sigma << " at " << p.i << " " << p.j << " " << p.k << ": " << error;
+    }
+    EXPECT_GT(interior, 100) << sigma;
+    EXPECT_TRUE(sigma < 1.0 || changed > 100) << sigma; // where bricks end the last value goes on
+  }
+}
+
+TEST(BrickField, SmoothingIsAGaussianAndReducesNoise)
+{
+  Execution execution;
+  const Lattice lattice = latticeOf(5);
+  BrickField field(lattice, allCells(lattice), 0);
+  const LatticePoint middle{ 16, 15, 17 };
+  fill(field, [&](const LatticePoint& p) { return p == middle ? 1000.0 : 0.0; });
+  field.smooth(1.3, execution);
+  double sum = 0.0, square[3] = { 0, 0, 0 };
+  for (std::size_t n = 0; n < field.size(); ++n)
+  {
+    const LatticePoint p = fromMorton(field.code(n));
+    const double weight = field.values()[n] / 1000.0;
+    sum += weight;
+    square[0] += weight * (p.i - middle.i) * (p.i - middle.i);
+    square[1] += weight * (p.j - middle.j) * (p.j - middle.j);
+    square[2] += weight * (p.k - middle.k) * (p.k - middle.k);
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-4);
+  for (const double variance : square)
+  {
+    EXPECT_NEAR(std::sqrt(variance), 1.3, 0.03);
+  }
+
+  Random random(4);
+  fill(field, [&](const LatticePoint&) { return random.uniform(-1.0, 1.0); });
+  const auto deviation = [&]
+  {
+    double squares = 0.0;
+    for (const float value : field.values())
+    {
+      squares += double(value) * value;
+    }
+    return std::sqrt(squares / double(field.size()));
+  };
+  const double before = deviation();
+  const BrickField noise = field;
+  field.smooth(1.3, execution);
+  // White noise falls by (2 sqrt(pi) sigma)^(-3/2) in all, a little less where bricks end.
+  EXPECT_LT(deviation(), 0.15 * before);
+  EXPECT_GT(deviation(), 0.05 * before);
+  field = noise;
+  field.smooth(0.0, execution);
+  EXPECT_EQ(field.values(), noise.values());
+}
+
+TEST(BrickField, MixedCellsAreThoseWithCornersOfBothSigns)
+{
+  Execution execution;
+  Random random(5);
+  for (const int depth : { 2, 3, 5 })
+  {
+    const Lattice lattice = latticeOf(depth);
+    BrickField field(lattice, randomCells(lattice, 3, random), 1);
+    // Rare signs, so that most cells are not mixed, and zeros, which are outside.
+    fill(field, [&](const LatticePoint&) { return random.below(9) ? (random.below(3) ? -1.0 : 0.0) : 0.5; });
+    std::vector<std::uint64_t> expected;
+    for (const std::uint64_t cell : allCells(lattice))
+    {
+      int inside = 0, known = 0;
+      for (int n = 0; n < 8; ++n)
+      {
+        const auto at = field.find(mortonCode(fromMorton(cell) + cornerOffset(n)));
+        known += at >= 0;
+        inside += at >= 0 && field.values()[at] > 0.0f;
+      }
+      if (known == 8 && inside > 0 && inside < 8)
+      {
+        expected.push_back(cell);
+      }
+    }
+    EXPECT_EQ(field.mixedCells(execution), expected) << depth;
+    EXPECT_GT(expected.size(), 10u);
+    EXPECT_LT(expected.size(), field.size());
+  }
+}
+
+TEST(BrickField, TheContourOfASpheresDistancesIsTheSphere)
+{
+  Execution execution;
+  const double pi = std::acos(-1.0);
+  for (const double radius : { 19.3, 25.0 })
+  {
+    const Vector3 centre(31.7, 30.2, 32.9);
+    const BrickField field = sphereField(6, centre, radius);
+    const Mesh mesh = field.contourMesh(execution);
+    const MeshSoundness s = assessMesh(mesh, execution);
+    EXPECT_TRUE(s.sound());
+    EXPECT_EQ(s.components, 1u);
+    EXPECT_EQ(s.genus.value_or(-1), 0);
+    const double leaf = field.lattice().leafEdge();
+    const double volume = 4.0 / 3.0 * pi * std::pow(radius * leaf, 3);
+    EXPECT_NEAR(s.volume, volume, 0.01 * volume);
+    const Vector3 middle = field.lattice().root.origin + leaf * centre;
+    for (const Vector3& p : mesh.points)
+    {
+      EXPECT_NEAR((p - middle).norm() / leaf, radius, 0.02);
+    }
+  }
+}
+
+TEST(BrickField, SameBytesForAnyNumberOfThreads)
+{
+  const auto make = [](Execution& execution)
+  {
+    BrickField field = sphereField(5, Vector3(15.2, 16.1, 15.7), 10.4);
+    Random random(6);
+    for (float& value : field.values())
+    {
+      value += float(random.uniform(-1.5, 1.5));
+    }
+    field.smooth(0.8, execution);
+    return std::make_pair(field, field.contourMesh(execution));
+  };
+  Execution serial;
+  const auto one = make(serial);
+  EXPECT_GT(one.second.triangles.size(), 1000u);
+  for (const int threads : { 1, 2, 8 })
+  {
+    ThreadedExecution execution(threads);
+    const auto many = make(execution);
+    EXPECT_EQ(one.first.values(), many.first.values());
+    EXPECT_EQ(one.first.mixedCells(serial), many.first.mixedCells(execution));
+    EXPECT_EQ(one.second.points, many.second.points);
+    EXPECT_EQ(one.second.triangles, many.second.triangles);
+  }
+}

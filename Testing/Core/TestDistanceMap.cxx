@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DistanceMap.h"
+
+#include "CarvingTestCaptures.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+BinaryImage blank(int width, int height, std::uint8_t value)
+{
+  return { width, height, std::vector<std::uint8_t>(std::size_t(width) * height, value) };
+}
+
+/** Discs of object and of background, some across the border, and single pixels. */
+BinaryImage randomMask(int width, int height, Random& random)
+{
+  BinaryImage image = blank(width, height, 0);
+  for (int disc = 0; disc < 7; ++disc)
+  {
+    const double u = random.uniform(0, width), v = random.uniform(0, height);
+    const double radius = random.uniform(0, 0.35 * std::min(width, height));
+    for (int row = 0; row < height; ++row)
+    {
+      for (int column = 0; column < width; ++column)
+      {
+        if (std::hypot(column - u, row - v) <= radius)
+        {
+          image.at(column, row) = disc % 3 != 2;
+        }
+      }
+    }
+  }
+  for (int pixel = 0; pixel < 3; ++pixel)
+  {
+    image.at(random.below(width), random.below(height)) ^= 1;
+  }
+  return image;
+}
+
+/** What the header says of a pixel, over all pixels of the other kind, before it is cut off. */
+double distanceByBruteForce(const BinaryImage& image, int column, int row)
+{
+  int nearest = std::numeric_limits<int>::max();
+  const std::uint8_t kind = image.at(column, row);
+  for (int r = 0; r < image.height; ++r)
+  {
+    for (int c = 0; c < image.width; ++c)
+    {
+      const int square = (c - column) * (c - column) + (r - row) * (r - row);
+      nearest = image.at(c, r) != kind && square < nearest ? square : nearest;
+    }
+  }
+  const double distance = nearest == std::numeric_limits<int>::max() ? 1e9 : std::sqrt(nearest) - 0.5;
+  return kind ? distance : -distance;
+}
+
+DistanceMap mapOf(const BinaryImage& image, double reach)
+{
+  return distanceMap(image.pixels.data(), image.width, image.height, reach);
+}
+
+void expectBruteForce(const BinaryImage& image, std::initializer_list<double> reaches, const std::string& what)
+{
+  std::vector<double> expected;
+  for (int p = 0; p < image.width * image.height; ++p)
+  {
+    expected.push_back(distanceByBruteForce(image, p % image.width, p / image.width));
+  }
+  for (const double reach : reaches)
+  {
+    const DistanceMap map = mapOf(image, reach);
+    EXPECT_EQ(map.width, image.width);
+    EXPECT_EQ(map.height, image.height);
+    int wrong = 0;
+    for (int p = 0; p < image.width * image.height; ++p)
+    {
+      const double found = map.at(p % image.width, p / image.width);
+      wrong += std::abs(found - std::clamp(expected[p], -reach, reach)) > 1e-4;
+    }
+    EXPECT_EQ(wrong, 0) << what << ", reach " << reach;
+  }
+}
+
+} // namespace
+
+TEST(DistanceMap, IsThatToTheNearestPixelOfTheOtherKind)
+{
+  Random random(1);
+  const int sizes[][2] = { { 1, 1 }, { 2, 1 }, { 1, 5 }, { 7, 3 }, { 16, 16 }, { 17, 33 }, { 64, 48 }, { 45, 70 } };
+  for (const auto& size : sizes)
+  {
+    for (int run = 0; run < 3; ++run)
+    {
+      const BinaryImage image = randomMask(size[0], size[1], random);
+      const std::string what = std::to_string(size[0]) + " x " + std::to_string(size[1]);
+      expectBruteForce(image, { 1.0, 2.5, 6.0, 40.0 }, what);
+    }
+  }
+}
+
+TEST(DistanceMap, HoldsForEveryPlaceOfASinglePixel)
+{
+  for (const std::uint8_t value : { 0, 1 })
+  {
+    for (int row = 0; row < 40; row += 4)
+    {
+      for (int column = 0; column < 35; column += 3)
+      {
+        BinaryImage image = blank(35, 40, value);
+        image.at(column, row) ^= 1;
+        expectBruteForce(image, { 4.5 }, "a pixel");
+      }
+    }
+  }
+}
+
+TEST(DistanceMap, FarFromAContourEverythingIsAtTheReach)
+{
+  BinaryImage image = blank(200, 150, 0);
+  for (int row = 30; row < 120; ++row)
+  {
+    std::fill_n(&image.at(40, row), 120, std::uint8_t(1));
+  }
+  const DistanceMap map = mapOf(image, 7.0);
+  for (int row = 0; row < 150; ++row)
+  {
+    for (int column = 0; column < 200; ++column)
+    {
+      // The rectangle's distance, in closed form: inside to the nearest side, outside to side or corner.
+      const double dx = std::max(40 - column, column - 159), dy = std::max(30 - row, row - 119);
+      const double out = std::hypot(std::max(dx, 0.0), std::max(dy, 0.0)) - 0.5;
+      const double in = -std::max(dx, dy) + 0.5;
+      const double expected = dx <= 0 && dy <= 0 ? std::min(in, 7.0) : -std::min(out, 7.0);
+      ASSERT_NEAR(map.at(column, row), expected, 1e-5) << column << " " << row;
+    }
+  }
+  EXPECT_LT(map.value.size(), 200u * 150u); // kept for the surroundings alone
+}
+
+TEST(DistanceMap, NothingAndEverything)
+{
+  const DistanceMap nothing = mapOf(blank(30, 20, 0), 5.0), everything = mapOf(blank(30, 20, 1), 5.0);
+  for (double v = -12.0; v < 32.0; v += 1.7)
+  {
+    for (double u = -12.0; u < 42.0; u += 1.3)
+    {
+      EXPECT_EQ(nothing.at(u, v), -5.0f);
+      const double du = u - std::clamp(u, 0.0, 29.0), dv = v - std::clamp(v, 0.0, 19.0);
+      EXPECT_NEAR(everything.at(u, v), std::max(-5.0, 5.0 - std::hypot(du, dv)), 1e-5);
+    }
+  }
+  EXPECT_EQ(nothing.width, 30);
+  EXPECT_EQ(nothing.height, 20);
+}
+
+TEST(DistanceMap, BetweenPixelsItIsBilinearAndBeyondTheImageItFalls)
+{
+  Random random(2);
+  const int n = 40;
+  for (int run = 0; run < 5; ++run)
+  {
+    const BinaryImage image = randomMask(n, n, random);
+    const double reach = 6.0;
+    const DistanceMap map = mapOf(image, reach);
+    std::vector<double> exact;
+    for (int p = 0; p < n * n; ++p)
+    {
+      exact.push_back(std::clamp(distanceByBruteForce(image, p % n, p / n), -reach, reach));
+    }
+    for (int probe = 0; probe < 2000; ++probe)
+    {
+      const double u = random.uniform(-10, n + 9), v = random.uniform(-10, n + 9);
+      const double x = std::clamp(u, 0.0, n - 1.0), y = std::clamp(v, 0.0, n - 1.0);
+      const int c = std::min(int(x), n - 2), r = std::min(int(y), n - 2);
+      const auto row = [&](int at) { return exact[at * n + c] * (1 - (x - c)) + exact[at * n + c + 1] * (x - c); };
+      const double inner = row(r) * (1 - (y - r)) + row(r + 1) * (y - r);
+      EXPECT_NEAR(map.at(u, v), std::max(-reach, inner - std::hypot(u - x, v - y)), 1e-4) << u << " " << v;
+    }
+  }
+}

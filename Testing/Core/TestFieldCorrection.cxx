@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FieldCorrection.h"
+
+#include "CarvingTestCaptures.h"
+#include "MeshDistance.h"
+#include "SyntheticCapture.h"
+#include "SyntheticShapes.h"
+#include "ViewAlignment.h"
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numeric>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+constexpr int Size = 200;
+constexpr int Depth = 5;
+
+/** Stops at the given question for it. */
+class CancelledAt : public Execution
+{
+public:
+  explicit CancelledAt(int calls)
+    : Left(calls)
+  {
+  }
+  bool cancelled() const override { return --this->Left < 0; }
+  mutable int Left;
+};
+
+/** A shape's capture, its noise drawn anew at will, and what exact marching cubes make of it. */
+class Capture
+{
+public:
+  explicit Capture(SyntheticShape shape)
+  {
+    SyntheticShapeOptions coarse;
+    coarse.refinement = 0.5;
+    this->Truth = syntheticShape(shape, coarse);
+    this->Options.photographs = false;
+    this->Options.views = 24;
+    this->Options.width = this->Options.height = Size;
+    Execution execution;
+    this->Views = synthesizeCapture(this->Truth, this->Options, execution);
+  }
+
+  void draw(double contour, double camera, std::uint64_t seed)
+  {
+    Execution execution;
+    auto options = this->Options;
+    options.noiseContour = contour;
+    options.noiseCamera = camera;
+    options.seed = seed;
+    redrawNoise(this->Views, this->Truth, options, execution);
+  }
+
+  PreparedViews prepared(bool clean = false) const
+  {
+    std::vector<View> views;
+    for (const auto& view : this->Views.views)
+    {
+      views.push_back({ view.name, clean ? view.trueProjection : view.projection, clean ? view.cleanMask : view.mask });
+    }
+    return prepareViews(views);
+  }
+
+  /** What the silhouettes can tell at best: the hull of the clean ones, by a finer lattice. */
+  const Mesh& cleanHull()
+  {
+    if (this->Hull.triangles.empty())
+    {
+      Execution execution;
+      const PreparedViews views = this->prepared(true);
+      this->Hull = votingMarchingCubes(carveViews(views, unitCube(1.05), 7), views, {}, execution).mesh;
+    }
+    return this->Hull;
+  }
+
+  /** For each view: what the reported projection adds to every pixel. */
+  std::vector<Vector2> applied() const
+  {
+    std::vector<Vector2> shifts;
+    for (const auto& view : this->Views.views)
+    {
+      const auto pixel = [](const Projection& P) { return Vector2(P(0, 3) / P(2, 3), P(1, 3) / P(2, 3)); };
+      shifts.push_back(pixel(view.projection) - pixel(view.trueProjection));
+    }
+    return shifts;
+  }
+
+  const SyntheticCapture& views() const { return this->Views; }
+
+private:
+  Mesh Truth;
+  SyntheticCaptureOptions Options;
+  SyntheticCapture Views;
+  Mesh Hull;
+};
+
+Capture& captureOf(SyntheticShape shape)
+{
+  static Capture sphere(SyntheticShape::Sphere), torus(SyntheticShape::Torus);
+  return shape == SyntheticShape::Sphere ? sphere : torus;
+}
+
+/** The capture as it is now, marching cubes of it and the field's correction. */
+struct Corrected
+{
+  explicit Corrected(const Capture& capture, const FieldCorrectionOptions& options = {})
+    : views(capture.prepared())
+  {
+    Execution execution;
+    const Octree octree = carveViews(this->views, unitCube(1.05), Depth);
+    this->lattice = octree.lattice;
+    this->exact = votingMarchingCubes(octree, this->views, {}, execution).mesh;
+    this->correction = this->correct(options, execution);
+  }
+
+  FieldCorrection correct(const FieldCorrectionOptions& options, Execution& execution) const
+  {
+    return correctField(this->exact, this->lattice, this->views, options, execution);
+  }
+
+  PreparedViews views;
+  Lattice lattice;
+  Mesh exact;
+  FieldCorrection correction;
+};
+
+double errorOf(const Mesh& mesh, const Mesh& hull, const Lattice& lattice)
+{
+  Execution execution;
+  return compareMeshes(mesh, hull, lattice.leafEdge(), execution).mean / lattice.leafEdge();
+}
+
+double meanLength(const std::vector<Vector2>& shifts)
+{
+  return std::accumulate(shifts.begin(), shifts.end(), 0.0,
+           [](double sum, const Vector2& shift) { return sum + shift.norm(); }) /
+    double(shifts.size());
+}
+
+/** The shifts without what a translation of the whole object explains: no silhouette shows that. */
+std::vector<Vector2> withoutTranslation(std::vector<Vector2> shifts, const SyntheticCapture& capture)
+{
+  using Rows = Eigen::Matrix<double, 2, 3>;
+  std::vector<Rows> derivatives;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Vector3 right = Vector3::Zero();
+  for (std::size_t i = 0; i < shifts.size(); ++i)
+  {
+    const Projection& P = capture.views[i].trueProjection;
+    Rows rows;
+    for (int r = 0; r < 2; ++r)
+    {
+      rows.row(r) = (P.block<1, 3>(r, 0) - P(r, 3) / P(2, 3) * P.block<1, 3>(2, 0)) / P(2, 3);
+    }
+    derivatives.push_back(rows);
+    normal += rows.transpose() * rows;
+    right += rows.transpose() * shifts[i];
+  }
+  const Vector3 translation = normal.ldlt().solve(right);
+  for (std::size_t i = 0; i < shifts.size(); ++i)
+  {
+    shifts[i] -= derivatives[i] * translation;
+  }
+  return shifts;
+}
+
+} // namespace
+
+TEST(FieldCorrection, CleanSilhouettesAreTakenAsTheyAre)
+{
+  for (const SyntheticShape shape : { SyntheticShape::Sphere, SyntheticShape::Torus })
+  {
+    captureOf(shape).draw(0, 0, 1);
+    const Corrected clean(captureOf(shape));
+    EXPECT_FALSE(clean.correction.field) << int(shape);
+    EXPECT_GE(clean.correction.deficit, 0.0);
+    EXPECT_LE(clean.correction.deficit, FieldCorrectionOptions().smallestDeficit) << int(shape);
+    EXPECT_EQ(clean.correction.alignment, 0.0);
+    FieldCorrectionOptions always;
+    always.smallestDeficit = 0.0;
+    Execution execution;
+    const bool any = clean.correction.deficit > 0.0;
+    EXPECT_EQ(clean.correct(always, execution).field.has_value(), any);
+  }
+}
+
+TEST(FieldCorrection, UnderContourNoiseTheFieldIsNearerToTheCleanHull)
+{
+  Execution execution;
+  for (const SyntheticShape shape : { SyntheticShape::Sphere, SyntheticShape::Torus })
+  {
+    for (const std::uint64_t seed : { 1, 2, 3 })
+    {
+      Capture& capture = captureOf(shape);
+      capture.draw(1.2, 0, seed);
+      const Corrected noisy(capture);
+      const std::string what = "shape " + std::to_string(int(shape)) + " seed " + std::to_string(seed);
+      ASSERT_TRUE(noisy.correction.field) << what;
+      const Mesh mesh = noisy.correction.field->contourMesh(execution);
+      EXPECT_EQ(assessMesh(mesh, execution).openEdges, 0u) << what;
+      const double before = errorOf(noisy.exact, capture.cleanHull(), noisy.lattice);
+      const double after = errorOf(mesh, capture.cleanHull(), noisy.lattice);
+      EXPECT_GT(before, 0.1) << what;
+      EXPECT_LT(after, 0.75 * before) << what;
+      EXPECT_GT(noisy.correction.deficit, FieldCorrectionOptions().smallestDeficit) << what;
+    }
+  }
+}
+
+TEST(FieldCorrection, UnderCameraNoiseTheViewsAreShiftedBack)
+{
+  Execution execution;
+  for (const SyntheticShape shape : { SyntheticShape::Sphere, SyntheticShape::Torus })
+  {
+    for (const std::uint64_t seed : { 1, 2, 3 })
+    {
+      Capture& capture = captureOf(shape);
+      capture.draw(0, 1.0, seed);
+      const Corrected noisy(capture);
+      const std::string what = "shape " + std::to_string(int(shape)) + " seed " + std::to_string(seed);
+      ASSERT_TRUE(noisy.correction.field) << what;
+      const Mesh mesh = noisy.correction.field->contourMesh(execution);
+      const double before = errorOf(noisy.exact, capture.cleanHull(), noisy.lattice);
+      const double after = errorOf(mesh, capture.cleanHull(), noisy.lattice);
+      EXPECT_LT(after, 0.75 * before) << what;
+      EXPECT_LT(noisy.correction.remainingDeficit, 0.5 * noisy.correction.deficit) << what;
+
+      // Seen from the corrected surface the views lie where the noise has put them, but for a common translation.
+      const auto applied = capture.applied();
+      const double length = meanLength(withoutTranslation(applied, capture.views()));
+      FieldViews fieldViews(noisy.views, noisy.lattice, 5.0);
+      std::vector<int> all(applied.size());
+      std::iota(all.begin(), all.end(), 0);
+      fieldViews.observe(all, execution);
+      const auto residuals = contourResiduals(fieldViews, mesh, all, 3.0, execution);
+      std::vector<Vector2> difference;
+      for (const int view : all)
+      {
+        difference.push_back(applied[view] + residuals[view].shift);
+      }
+      EXPECT_GT(length, 0.7) << what;
+      EXPECT_LT(meanLength(withoutTranslation(difference, capture.views())), 0.5 * length) << what;
+      EXPECT_NEAR(noisy.correction.alignment, meanLength(applied), 0.35 * length) << what;
+    }
+  }
+}
+
+TEST(FieldCorrection, EachPartDoesWhatItSaysAlone)
+{
+  captureOf(SyntheticShape::Torus).draw(1.2, 1.0, 4);
+  Corrected noisy(captureOf(SyntheticShape::Torus));
+  const FieldCorrection& both = noisy.correction;
+  ASSERT_TRUE(both.field);
+  Execution execution;
+  FieldCorrectionOptions options;
+  options.alignViews = options.moveSurface = false;
+  const auto none = noisy.correct(options, execution);
+  EXPECT_FALSE(none.field);
+  EXPECT_EQ(none.alignment, 0.0);
+
+  options.moveSurface = true;
+  const auto moved = noisy.correct(options, execution);
+  ASSERT_TRUE(moved.field);
+  EXPECT_EQ(moved.alignment, 0.0);
+  EXPECT_EQ(moved.deficit, both.deficit);
+  EXPECT_EQ(moved.remainingDeficit, moved.deficit);
+
+  options.moveSurface = false;
+  options.alignViews = true;
+  const auto aligned = noisy.correct(options, execution);
+  ASSERT_TRUE(aligned.field);
+  EXPECT_EQ(aligned.alignment, both.alignment);
+  EXPECT_GT(aligned.alignment, 0.3);
+  EXPECT_EQ(aligned.remainingDeficit, both.remainingDeficit);
+  EXPECT_LT(aligned.remainingDeficit, aligned.deficit);
+  // The shifts alone leave the noise's bias: the hull stays too small.
+  const double hull = assessMesh(captureOf(SyntheticShape::Torus).cleanHull(), execution).volume;
+  const double least = assessMesh(aligned.field->contourMesh(execution), execution).volume;
+  const double corrected = assessMesh(both.field->contourMesh(execution), execution).volume;
+  EXPECT_GT(least, assessMesh(noisy.exact, execution).volume);
+  EXPECT_LT(least, 0.98 * hull);
+  EXPECT_LT(std::abs(corrected - hull), 0.5 * std::abs(least - hull));
+
+  options = {};
+  options.smallestDeficit = 1.001 * both.deficit;
+  EXPECT_FALSE(noisy.correct(options, execution).field);
+  options.smallestDeficit = 0.999 * both.deficit;
+  EXPECT_TRUE(noisy.correct(options, execution).field);
+  EXPECT_FALSE(correctField(Mesh(), noisy.lattice, noisy.views, {}, execution).field);
+}
+
+TEST(FieldCorrection, TheLatticesBorderStaysOutside)
+{
+  Execution execution;
+  captureOf(SyntheticShape::Sphere).draw(1.2, 0, 2);
+  const PreparedViews views = captureOf(SyntheticShape::Sphere).prepared();
+  const Octree octree = carveViews(views, { Vector3(-0.5, -0.4, -0.3), 1.6 }, 4);
+  const Mesh exact = votingMarchingCubes(octree, views, {}, execution).mesh;
+  const auto correction = correctField(exact, octree.lattice, views, {}, execution);
+  ASSERT_TRUE(correction.field);
+  int border = 0;
+  for (std::size_t n = 0; n < correction.field->size(); ++n)
+  {
+    if (octree.lattice.onBorder(fromMorton(correction.field->code(n))))
+    {
+      ++border;
+      EXPECT_LT(correction.field->values()[n], 0.0f);
+    }
+  }
+  EXPECT_GT(border, 500);
+}
+
+TEST(FieldCorrection, OptionsOutOfRangeAreErrorsThatNameTheValue)
+{
+  captureOf(SyntheticShape::Sphere).draw(0, 0, 1);
+  const Corrected clean(captureOf(SyntheticShape::Sphere));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Execution execution;
+  using Options = FieldCorrectionOptions;
+  const auto expectError = [&](const Options& options, const std::string& value)
+  {
+    try
+    {
+      clean.correct(options, execution);
+      ADD_FAILURE() << value << " was accepted";
+    }
+    catch (const InvalidInput& error)
+    {
+      EXPECT_NE(std::string(error.what()).find(value), std::string::npos) << error.what();
+    }
+  };
+  for (const auto member : { &Options::smallestDeficit, &Options::smoothing, &Options::greatestSmoothing,
+         &Options::gentleness, &Options::contourReach })
+  {
+    Options options;
+    options.*member = -1.5;
+    expectError(options, "-1.5");
+    options.*member = nan;
+    expectError(options, "nan");
+    options.*member = 0.0;
+    if (member == &Options::contourReach)
+    {
+      expectError(options, "0.0");
+    }
+    else
+    {
+      EXPECT_NO_THROW(clean.correct(options, execution));
+    }
+  }
+  Options options;
+  options.alignments = 0;
+  expectError(options, "0");
+  options.alignments = -3;
+  expectError(options, "-3");
+}
+
+TEST(FieldCorrection, CanBeCancelledAtAnyTimeAndTellsItsProgress)
+{
+  captureOf(SyntheticShape::Torus).draw(1.2, 1.0, 5);
+  const Corrected noisy(captureOf(SyntheticShape::Torus));
+  CancelledAt never(1000000);
+  noisy.correct({}, never);
+  const int questions = 1000000 - never.Left;
+  EXPECT_GE(questions, 6);
+  for (int calls = 0; calls < questions; calls += 3)
+  {
+    CancelledAt cancelled(calls);
+    EXPECT_THROW(noisy.correct({}, cancelled), Cancelled) << calls;
+  }
+  ProgressExecution progress;
+  noisy.correct({}, progress);
+  EXPECT_TRUE(progress.Monotone);
+  EXPECT_EQ(progress.Last, 1.0);
+}
+
+TEST(FieldCorrection, SameBytesForAnyNumberOfThreads)
+{
+  captureOf(SyntheticShape::Torus).draw(1.2, 1.0, 6);
+  const Corrected noisy(captureOf(SyntheticShape::Torus));
+  ASSERT_TRUE(noisy.correction.field);
+  for (const int threads : { 2, 8 })
+  {
+    ThreadedExecution execution(threads);
+    const auto many = noisy.correct({}, execution);
+    ASSERT_TRUE(many.field);
+    EXPECT_EQ(many.field->bricks(), noisy.correction.field->bricks());
+    EXPECT_EQ(many.field->values(), noisy.correction.field->values());
+    EXPECT_EQ(many.deficit, noisy.correction.deficit);
+    EXPECT_EQ(many.remainingDeficit, noisy.correction.remainingDeficit);
+    EXPECT_EQ(many.alignment, noisy.correction.alignment);
+  }
+}

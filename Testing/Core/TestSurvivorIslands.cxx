@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurvivorIslands.h"
+
+#include "CarvingTestCaptures.h"
+#include "CornerShell.h"
+#include "LatticeRegions.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+/**
+ * Three cubes on a diagonal, affine views along the axes: their silhouettes are apart in every view, so that
+ * nothing but the cubes survives.
+ */
+Octree threeCubes(PreparedViews& views)
+{
+  Mesh mesh = boxMesh(Vector3::Constant(-0.9), Vector3::Constant(-0.1)); // 13 octants of 1/16 a side
+  mesh = joined(mesh, boxMesh(Vector3::Constant(0.2), Vector3::Constant(0.5)));
+  mesh = joined(mesh, boxMesh(Vector3::Constant(0.7), Vector3::Constant(0.8)));
+  views = prepareViews(viewsOf(mesh, axisCameras(200.0, 500), 500));
+  return carveViews(views, unitCube(1.0), 5);
+}
+
+/** Leaf cells within the box [low, high)^3 that survive: what locate() says of each. */
+std::uint64_t survivingCells(const Octree& octree, int low, int high)
+{
+  std::uint64_t count = 0;
+  const int n = high - low;
+  for (int c = 0; c < n * n * n; ++c)
+  {
+    count += octree.locate({ low + c % n, low + c / n % n, low + c / n / n }).state != OctantState::Background;
+  }
+  return count;
+}
+
+} // namespace
+
+TEST(SurvivorIslands, WhatIsSmallerThanTheShareIsGivenUpAndCounted)
+{
+  Execution execution;
+  PreparedViews views;
+  const Octree octree = threeCubes(views);
+  ASSERT_EQ(countSurvivorComponents(octree, execution), 3u);
+  const std::uint64_t large = survivingCells(octree, 0, 16);
+  const std::uint64_t middle = survivingCells(octree, 17, 26);
+  const std::uint64_t small = survivingCells(octree, 26, 32);
+  ASSERT_EQ(survivingCells(octree, 0, 32), large + middle + small);
+  ASSERT_GT(octree.count(OctantState::Inside, 4), 0u) << "a coarser octant is to be counted as its eight";
+  ASSERT_TRUE(middle > small && small > 0 && large > middle);
+
+  struct Case
+  {
+    double share;
+    std::uint64_t dropped;
+  };
+  const double least = double(small) / double(large), second = double(middle) / double(large);
+  const Case cases[] = { { 0.0, 0 }, { least * 0.999, 0 }, { least * 1.001, small }, { second * 0.999, small },
+    { second * 1.001, small + middle }, { 1.0, small + middle } };
+  for (const Case& c : cases)
+  {
+    std::uint64_t dropped = 99;
+    const Octree kept = dropIslands(octree, c.share, dropped, execution);
+    EXPECT_EQ(dropped, c.dropped) << c.share;
+    EXPECT_EQ(survivingCells(kept, 0, 32), large + middle + small - c.dropped) << c.share;
+    EXPECT_EQ(survivingCells(kept, 0, 16), large);
+    EXPECT_EQ(sameOctants(kept, octree), c.dropped == 0);
+    EXPECT_EQ(kept.fingerprint, octree.fingerprint);
+  }
+}
+
+TEST(SurvivorIslands, TheOctreeStaysConsistent)
+{
+  Execution execution;
+  PreparedViews views;
+  const Octree octree = threeCubes(views);
+  std::uint64_t dropped = 0;
+  const Octree kept = dropIslands(octree, 0.5, dropped, execution);
+  ASSERT_GT(dropped, 0u);
+  EXPECT_EQ(countSurvivorComponents(kept, execution), 1u);
+  std::uint64_t leaves = 0;
+  for (int g = kept.treeGeneration; g <= kept.lattice.depth; ++g)
+  {
+    const Generation& generation = kept.generations[g];
+    EXPECT_EQ(generation.code, octree.generations[g].code);
+    std::uint32_t blocks = 0;
+    for (std::size_t i = 0; i < generation.size(); ++i)
+    {
+      EXPECT_EQ(generation.childBlock[i], blocks);
+      blocks += generation.state[i] == OctantState::Intersection;
+    }
+    if (g < kept.lattice.depth)
+    {
+      EXPECT_EQ(kept.generations[g + 1].size(), 8u * blocks);
+    }
+    leaves += kept.count(OctantState::Inside, g) << 3 * (kept.lattice.depth - g);
+  }
+  leaves += leafCells(kept, OctantState::Intersection).size();
+  EXPECT_EQ(leaves, survivingCells(kept, 0, 32));
+  std::uint64_t again = 99;
+  EXPECT_TRUE(sameOctants(dropIslands(kept, 1.0, again, execution), kept));
+  EXPECT_EQ(again, 0u);
+}
+
+TEST(SurvivorIslands, NoiseLeavesTheLargestAlone)
+{
+  Execution execution;
+  for (int kind = 0; kind <= 4; ++kind)
+  {
+    Random random(90 + kind);
+    auto captured = viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(8, 120), 120);
+    disturb(captured, kind, random);
+    const Octree octree = carveViews(prepareViews(captured), unitCube(), 5, kind == 4 ? 3 : 0);
+    std::uint64_t dropped = 0;
+    const Octree kept = dropIslands(octree, 1.0, dropped, execution);
+    EXPECT_EQ(survivingCells(kept, 0, 32) + dropped, survivingCells(octree, 0, 32));
+    // Of several equally large ones all stay, and nothing is split.
+    const std::uint64_t components = countSurvivorComponents(kept, execution);
+    EXPECT_GE(components, 1u);
+    EXPECT_EQ(survivingCells(kept, 0, 32) % components, 0u);
+    EXPECT_LE(components, countSurvivorComponents(octree, execution));
+  }
+}
+
+TEST(SurvivorIslands, NothingToGiveUp)
+{
+  Execution execution;
+  std::uint64_t dropped = 99;
+  EXPECT_TRUE(dropIslands(Octree(), 0.5, dropped, execution).generations.empty());
+  EXPECT_EQ(dropped, 0u);
+}
+
+TEST(SurvivorIslands, RefusesSharesOutOfRange)
+{
+  Execution execution;
+  std::uint64_t dropped = 0;
+  for (const double share : { -0.1, 1.5, std::numeric_limits<double>::quiet_NaN() })
+  {
+    try
+    {
+      dropIslands(Octree(), share, dropped, execution);
+      FAIL() << share;
+    }
+    catch (const InvalidInput& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("island share " + std::to_string(share) + " is outside 0 to 1"),
+        std::string::npos)
+        << error.what();
+    }
+  }
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The methods that the study compares: a line of one table each.
+ */
+#pragma once
+
+#include "Trial.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace silhouette::experiments
+{
+
+/** Families that the report looks for the best of, or speaks of as one. */
+enum class Family
+{
+  Cubes,
+  Faithful,
+  Consistent,
+  Known, ///< what VTK and Qhull have
+  Hulls  ///< ours: these keep the promises
+};
+
+struct Method
+{
+  std::string name;
+  std::string label;
+  Family family;
+  int backgroundVotes; ///< of the octree that it is made from, whose survivors may be lost
+  bool firstSeedOnly;  ///< slow, or less asked after
+  std::function<Mesh(Trial&)> make;
+};
+
+const std::vector<Method>& methods();
+/** The named one. Throws InvalidInput where there is none. */
+const Method& methodNamed(const std::string& name);
+
+} // namespace silhouette::experiments

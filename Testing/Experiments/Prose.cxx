@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Prose.h"
+
+namespace silhouette::experiments::prose
+{
+
+const char* const Opening = R"(# Experiments: the surfaces under noise
+
+This page is written by a program, tables, figures and words; the whole of it is made anew, from seeds, by
+
+```sh
+build/bin/silhouette-experiments --all --output experiments --documentation Documentation
+```
+
+`--resume` goes on with a run that was interrupted; `--report` alone writes the page from results that are
+there; `--help` explains the rest. The short form that runs with the tests asserts the promises below in
+every run.
+)";
+
+const char* const Setting = R"(
+Six synthesized solids: two convex ones (sphere, pebble) and four that are not (torus, jug, pumpkin, twig).
+Noise is of one kind at a time. Contour: the silhouettes' contours are moved along their normals by a random
+field that is smooth over 6 px, of the stated standard deviation. Camera: the reported principal points are
+off by the stated deviation in u and v. Blobs: three discs of radius 8 to 25 px are cut out of each of so
+many masks. Pixels: so many of all pixels flip (salt and pepper), without a filter. Rotation: the reported
+cameras are turned about each axis by the stated deviation. Pixels are those of an image of 1024; for other
+sizes they are scaled. An octant of depth 7 is 7.5 px wide: 2, 4 and 8 px of contour noise are 0.27, 0.53 and
+1.07 octants.
+
+**Held-out seeds.** The constants of the local hulls were chosen on jug, sphere and torus with the seeds 1,
+2 and 3 alone. All numbers here are of other seeds, and three of the six objects were never looked at while
+choosing. Mid-edge marching cubes, faithful voting, voting with three background votes, the 3D Delaunay
+triangulation and VTK's surface reconstruction are run with the first seed alone, and so is every method
+under 1 % of flipped pixels, which take minutes to carve. The errors to the solid and the XOR shares are of
+the first seed, for the methods that are run with all. The last two of the methods named are given every
+n-th point of exact marching cubes, 10,000 at most.
+)";
+
+const char* const Measures = R"(
+Everything is carved in the same cube from -1 to 1, so that all methods share their octants. The *reference*
+is the visual hull: exact marching cubes of the clean silhouettes, two generations deeper. The *error* is
+the mean of two mean distances, from the surface to the reference and back, in leaf octants, over every n-th
+triangle of each (30,000 or so), weighted by area. *Spread*, behind the sign ±, is the standard deviation
+over the seeds. *Lost* are the last generation's survivors, of the octree that the surface was made from,
+that it neither crosses nor encloses. *Genus* is empty where a surface is open. *XOR* is the share of the
+silhouettes' pixels that the rendered surface has wrong, over the views used, with their noise.
+)";
+
+const char* const Promises = R"(
+## Promises
+
+In how many runs a surface breaks what the local hulls promise. The promise is theirs alone; the others show
+what it is worth.
+)";
+
+const char* const Targets = R"(
+## What was to be reached
+
+The error of the local hulls as a ratio to that of exact marching cubes in the same run, the mean over the
+seeds. Bold is reached.
+)";
+
+const char* const Errors = R"(
+### Errors
+
+In octants, with their spread; bold is the least of a row. Numbers behind voting are the background votes
+allowed: 1 of 36 views is a share of 97 %, 3 one of 92 %.
+)";
+
+const char* const Shapes = R"(
+### Soundness and shape
+
+Voting, in both modes, with the number of background votes that has the least error in that row: in practice
+it is not known. Ranges are over the seeds.
+)";
+
+const char* const Times = R"(
+## Times
+
+Medians of the times of the surface alone, without views and carving, as ratios to exact marching cubes of
+the same run.
+)";
+
+const char* const Failures = R"(
+## Runs without a surface
+
+)";
+
+const char* const Votes = R"(
+## Table 6.1 of the thesis
+
+Faithful voting, mid-edge, on one convex object and a lattice of 64 x 64 x 64 octants (seven levels with the
+root), 36 views. The thesis does not say what its object was. A sphere 47 octants across whose cameras are
+off by 0.6 octants is where the search for what comes nearest starts; it goes over sizes, noise and seeds.
+)";
+
+const char* const Generations = R"(
+One figure of the thesis stays open: 15,552 intersection octants in the last generation. Half the faces plus
+the lost octants is nearly the same in all columns of its table, 10,675 to 11,000; an octant that has
+patches has two triangles on average, so this is about the number of octants that were looked at, and 15,552
+is not. In the spheres here it is the number of intersection octants of the last generation to some percent.
+Two readings are left: 15,552 counts the intersection octants of all generations together, to which the last
+column comes near, or the test of octants was looser than the exact polygon.
+)";
+
+const char* const Hulls = R"(
+## Delaunay triangulation and convex hull
+
+The thesis's Figure 6.4: the 3D Delaunay triangulation and the 3D convex hull of 100 random points, and of
+the points of marching cubes on the convex object of Table 6.1. Both are convex whatever the object: on the
+concave ones their error is the depth of the concavities. (The boundary of VTK's tetrahedra has a few faces
+more than the hull: it leaves out the flattest of the outer tetrahedra.)
+)";
+
+} // namespace silhouette::experiments::prose
