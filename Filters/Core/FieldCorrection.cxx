@@ -240,7 +240,7 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
   {
     return result;
   }
-  const double reach = 5.0 * std::max(1.0, lattice.cells() / ThoughtOutAt);
+  const double reach = 4.0 * std::max(1.0, lattice.cells() / ThoughtOutAt);
   FieldViews fieldViews(views, lattice, reach);
   std::vector<int> some;
   for (int view = 0; view < views.size(); view += 3)

@@ -22,7 +22,7 @@ struct FieldCorrectionOptions
   bool alignViews = true; ///< shift views against the camera's error, as far as the contours show it
   bool moveSurface = true; ///< correct the field for the noise's bias; without it the views' shifts alone count
   /** Octants, 0 or more: silhouettes whose deficit is at most this are taken as they are; larger corrects less. */
-  double smallestDeficit = 0.025;
+  double smallestDeficit = 0.05;
   int alignments = 2; ///< rounds of shifting, 1 or more; larger comes closer and costs in proportion
   /** Octants for each octant of deficit, 0 or more: standard deviation of the field's smoothing; larger is smoother. */
   double smoothing = 5.0;

@@ -62,7 +62,7 @@ void FieldViews::observe(const std::vector<int>& views, Execution& execution)
         {
           const PreparedView& view = (*this->Views)[views[i]];
           // Octants nearer to the camera than the middle are larger.
-          const double pixels = 1.5 * this->Reach * this->CentreScale[views[i]];
+          const double pixels = 1.25 * this->Reach * this->CentreScale[views[i]];
           map = distanceMap(view.silhouette(), view.width, view.height, pixels);
         }
       }
@@ -116,7 +116,7 @@ std::vector<BinaryImage> FieldViews::render(const Mesh& mesh, const std::vector<
       for (std::size_t i = first; i < last; ++i)
       {
         const PreparedView& view = (*this->Views)[views[i]];
-        images[i] = renderSilhouette(mesh, this->Projections[views[i]], view.width, view.height);
+        images[i] = renderSilhouette(mesh, this->Projections[views[i]], view.width, view.height, RenderedSides::One);
       }
     });
   return images;

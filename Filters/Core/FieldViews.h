@@ -30,7 +30,7 @@ public:
 
   /** The silhouettes of a mesh, as the views (shifted) would see it: one image for each view asked for. */
   std::vector<BinaryImage> render(const Mesh& mesh, const std::vector<int>& views, Execution& execution) const;
-  /** Their distances. */
+  /** The distances of images of all views, in their order. */
   std::vector<DistanceMap> distances(const std::vector<BinaryImage>& images, Execution& execution) const;
 
   /** px: what is added to every projected point of a view. */

@@ -264,6 +264,10 @@ bool LatticeLabels::unlabelled(const LatticePoint& p) const
   {
     return this->Field->values()[point] > 0.0f;
   }
+  if (this->Field)
+  {
+    return this->TheOctree->touchesInside(p);
+  }
   // No intersection octant of the last generation touches it: every octant around it tells.
   const auto location = this->TheOctree->locate(p);
   return location.state == OctantState::Inside ||

@@ -9,6 +9,7 @@
 #include "SurvivorCovering.h"
 #include "SurvivorIslands.h"
 #include "ThesisHullSurface.h"
+#include "UnionFind.h"
 
 #include <algorithm>
 #include <optional>
@@ -218,8 +219,27 @@ void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const 
   }
 }
 
-/** Labels with every survivor covered, and the surface of them. */
-void coverAndContour(LatticeLabels& labels, const Survivors& survivors, const SurfaceCrossings& crossings,
+std::uint64_t countComponents(const Mesh& mesh)
+{
+  UnionFind sets(mesh.points.size());
+  for (const Triangle& t : mesh.triangles)
+  {
+    sets.unite(std::uint32_t(t[0]), std::uint32_t(t[1]));
+    sets.unite(std::uint32_t(t[0]), std::uint32_t(t[2]));
+  }
+  std::uint64_t count = 0;
+  for (std::uint32_t p = 0; p < mesh.points.size(); ++p)
+  {
+    count += sets.find(p) == p;
+  }
+  return count;
+}
+
+/**
+ * Labels with every survivor covered, and the surface of them. False where a correction was so large that the surface has more components
+ * than the survivors.
+ */
+bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const SurfaceCrossings& crossings,
   const PreparedViews* views, const LocalHullOptions& options, LocalHullSurface& surface, Execution& execution)
 {
   surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
@@ -239,6 +259,18 @@ void coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
   }
   Phase contouring(execution, 0.4, 1.0);
   makeSurface(labels, survivors, covering, place, added, latticeViews ? &*latticeViews : nullptr, options, surface, contouring);
+  return !labels.field() || !options.fillCavities ||
+    countComponents(surface.mesh) <= countSurvivorComponents(survivors.octree, execution);
+}
+
+/** Nothing corrected. */
+LocalHullOptions plainOptions(const LocalHullOptions& options)
+{
+  LocalHullOptions plain = options;
+  plain.repairSilhouettes = false;
+  plain.correction.alignViews = false;
+  plain.correction.moveSurface = false;
+  return plain;
 }
 
 LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
@@ -250,7 +282,7 @@ LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& octree, cons
   surface.survivors = octree.count(OctantState::Intersection, octree.lattice.depth) +
     octree.count(OctantState::Inside, octree.lattice.depth);
   execution.checkpoint(0.1);
-  Phase finishing(execution, 0.6, 1.0);
+  Phase finishing(execution, 0.6, 0.9);
   if (!views)
   {
     const SurfaceCrossings crossings = locateCrossings(imperfect, octree.lattice);
@@ -269,18 +301,20 @@ LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& octree, cons
   execution.checkpoint(0.6);
   const SurfaceCrossings crossings = locateCrossings(capture.surface ? *capture.surface : imperfect, octree.lattice);
   surface.ignoredPoints = crossings.ignoredPoints;
-  coverAndContour(labels, survivors, crossings, capture.repaired ? &*capture.repaired : views, options, surface, finishing);
-  return surface;
+  const PreparedViews* used = capture.repaired ? &*capture.repaired : views;
+  if (coverAndContour(labels, survivors, crossings, used, options, surface, finishing))
+  {
+    return surface;
+  }
+  Phase again(execution, 0.9, 1.0);
+  return robustSurface(imperfect, octree, views, plainOptions(options), again);
 }
 
 /** What the Thesis mode takes its points from: every survivor covered, and nothing corrected. */
 LocalHullSurface coveredSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
   const LocalHullOptions& options, Execution& execution)
 {
-  LocalHullOptions plain = options;
-  plain.repairSilhouettes = false;
-  plain.correction.alignViews = false;
-  plain.correction.moveSurface = false;
+  LocalHullOptions plain = plainOptions(options);
   plain.thinHulls = false;
   return robustSurface(imperfect, octree, views, plain, execution);
 }

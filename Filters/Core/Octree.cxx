@@ -45,4 +45,18 @@ Octree::Location Octree::locate(const LatticePoint& cell) const
   }
 }
 
+bool Octree::touchesInside(const LatticePoint& p) const
+{
+  for (int n = 0; n < 8; ++n)
+  {
+    const LatticePoint o = cornerOffset(n);
+    const LatticePoint cell{ p.i - o.i, p.j - o.j, p.k - o.k };
+    if (this->lattice.hasCell(cell) && this->locate(cell).state == OctantState::Inside)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 } // namespace silhouette

@@ -69,6 +69,8 @@ struct Octree
     OctantState state = OctantState::Background;
   };
   Location locate(const LatticePoint& cell) const;
+  /** Is one of the eight octants around a lattice point wholly inside? */
+  bool touchesInside(const LatticePoint& p) const;
 };
 
 } // namespace silhouette

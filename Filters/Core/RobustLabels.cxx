@@ -66,6 +66,48 @@ std::vector<std::uint64_t> disputedCells(const Octree& octree, const BrickField&
   return cells;
 }
 
+/**
+ * Where the bricks end, the field says what the octree says, so that no surface leaves them except through the octree's own
+ * intersection octants.
+ */
+void pinWhereBricksEnd(const Octree& octree, BrickField& field, Execution& execution)
+{
+  execution.forRanges(field.bricks().size(), 8,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t brick = first; brick < last; ++brick)
+      {
+        const LatticePoint b = fromMorton(field.bricks()[brick]);
+        std::array<bool, 27> present;
+        for (int n = 0; n < 27; ++n)
+        {
+          const LatticePoint q{ b.i + n % 3 - 1, b.j + n / 3 % 3 - 1, b.k + n / 9 - 1 };
+          present[n] = q.i >= 0 && q.j >= 0 && q.k >= 0 && field.findBrick(mortonCode(q)) >= 0;
+        }
+        if (std::find(present.begin(), present.end(), false) == present.end())
+        {
+          continue;
+        }
+        for (std::uint64_t local = 0; local < BrickField::BrickPoints; ++local)
+        {
+          const LatticePoint p = fromMorton(local);
+          bool end = false;
+          for (int n = 0; n < 27 && !end; ++n)
+          {
+            const auto side = [](int x, int step) { return x + step < 0 ? 0 : (x + step >= BrickField::BrickSize ? 2 : 1); };
+            end = !present[side(p.i, n % 3 - 1) + 3 * side(p.j, n / 3 % 3 - 1) + 9 * side(p.k, n / 9 - 1)];
+          }
+          float& value = field.values()[brick * BrickField::BrickPoints + local];
+          const LatticePoint at = fromMorton(field.code(brick * BrickField::BrickPoints + local));
+          if (end && (value > 0.0f) != octree.touchesInside(at))
+          {
+            value = value > 0.0f ? -0.5f : 0.5f;
+          }
+        }
+      }
+    });
+}
+
 /** Last-generation inside octants of `octree` without an inside corner by the labels' source: they need covering too. */
 std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLabels& labels)
 {
@@ -132,6 +174,10 @@ CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, con
   Phase correcting(execution, 0.4, 1.0);
   capture.correction = correctField(capture.surface ? *capture.surface : imperfect, octree.lattice,
     capture.repaired ? *capture.repaired : views, options.correction, correcting);
+  if (capture.correction.field)
+  {
+    pinWhereBricksEnd(capture.recarved ? *capture.recarved : octree, *capture.correction.field, execution);
+  }
   return capture;
 }
 

@@ -4,6 +4,8 @@
 #include "Error.h"
 #include "MeshCheck.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -160,7 +162,8 @@ void fill(const Polygon& polygon, BinaryImage& image)
 
 } // namespace
 
-BinaryImage renderSilhouette(const Mesh& mesh, const Projection& projection, int width, int height)
+BinaryImage renderSilhouette(
+  const Mesh& mesh, const Projection& projection, int width, int height, RenderedSides sides)
 {
   if (width < 1 || height < 1)
   {
@@ -185,7 +188,11 @@ BinaryImage renderSilhouette(const Mesh& mesh, const Projection& projection, int
   }
   for (const Triangle& triangle : mesh.triangles)
   {
-    fill(cutByNearPlane(points, triangle, nearPlane), image);
+    // The determinant's sign is that of the image's orientation, and 0 for triangles seen edge-on: they are kept.
+    if (sides == RenderedSides::Both || points[triangle[0]].cross(points[triangle[1]]).dot(points[triangle[2]]) >= 0.0)
+    {
+      fill(cutByNearPlane(points, triangle, nearPlane), image);
+    }
   }
   return image;
 }

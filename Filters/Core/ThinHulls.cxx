@@ -4,6 +4,7 @@
 #include "BoxTree.h"
 #include "SelfIntersections.h"
 #include "SurvivorCoverage.h"
+#include "UnionFind.h"
 
 #include <algorithm>
 #include <array>
@@ -386,7 +387,7 @@ public:
       this->place(this->Number[m]);
     }
     this->withdrawIntersections();
-    while (this->withdrawLost())
+    while (this->withdrawLost() || this->withdrawInverted())
     {
       this->withdrawIntersections();
     }
@@ -579,6 +580,44 @@ private:
     return any;
   }
 
+  /** Six times the signed volume of each component, by its first point, with the given points. */
+  std::vector<double> volumes(const std::vector<Vector3>& points)
+  {
+    std::vector<double> volume(points.size(), 0.0);
+    for (const Triangle& t : this->TheMesh.triangles)
+    {
+      const std::uint32_t first = this->Components.find(std::uint32_t(t[0]));
+      const Vector3& o = points[first];
+      volume[first] += (points[t[0]] - o).cross(points[t[1]] - o).dot(points[t[2]] - o);
+    }
+    return volume;
+  }
+
+  /** Withdraw components that the moves have turned inside out; false where there are none. */
+  bool withdrawInverted()
+  {
+    if (this->Components.size() == 0)
+    {
+      this->Components = UnionFind(this->TheMesh.points.size());
+      for (const Triangle& t : this->TheMesh.triangles)
+      {
+        this->Components.unite(std::uint32_t(t[0]), std::uint32_t(t[1]));
+        this->Components.unite(std::uint32_t(t[0]), std::uint32_t(t[2]));
+      }
+    }
+    const std::vector<double> before = this->volumes(this->Original), now = this->volumes(this->TheMesh.points);
+    bool any = false;
+    for (std::size_t m = 0; m < this->Points.size(); ++m)
+    {
+      const std::uint32_t component = this->Components.find(std::uint32_t(this->Points[m]));
+      if (before[component] > 0.0 && !(now[component] > 0.0))
+      {
+        any = this->withdraw(m) || any;
+      }
+    }
+    return any;
+  }
+
   /** Withdraw around the survivors that the surface has lost; false where there are none. */
   bool withdrawLost()
   {
@@ -640,6 +679,7 @@ private:
   std::vector<std::int32_t> Number; ///< of each point among those that move, or -1
   std::vector<std::size_t> Points;  ///< that move
   std::vector<Vector3> Moves;
+  UnionFind Components; ///< of the mesh's points
   std::vector<double> Scale;
   std::vector<int> Withdrawn;
   std::vector<std::int32_t> Near; ///< triangles

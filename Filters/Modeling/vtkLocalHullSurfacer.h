@@ -212,7 +212,7 @@ public:
   ///@{
   /**
    * CorrectField: silhouettes whose deficit is at most this are taken as they are; leaf octants, at least 0,
-   * default 0.03. Larger corrects less.
+   * default 0.05. Larger corrects less.
    */
   vtkSetMacro(SmallestDeficit, double);
   vtkGetMacro(SmallestDeficit, double);
@@ -221,7 +221,7 @@ public:
   ///@{
   /**
    * CorrectField: standard deviation of the field's smoothing, for each octant of deficit; leaf octants, at
-   * least 0, default 2.5. Larger is smoother.
+   * least 0, default 5. Larger is smoother.
    */
   vtkSetMacro(Smoothing, double);
   vtkGetMacro(Smoothing, double);
@@ -239,7 +239,7 @@ public:
   ///@{
   /**
    * CorrectField: the most that smoothing changes the field, for each octant of deficit, so that thin parts
-   * stay; leaf octants, at least 0, default 1.5. Larger smooths more.
+   * stay; leaf octants, at least 0, default 0.7. Larger smooths more.
    */
   vtkSetMacro(Gentleness, double);
   vtkGetMacro(Gentleness, double);

@@ -24,8 +24,8 @@ field that is smooth over 6 px, of the stated standard deviation. Camera: the re
 off by the stated deviation in u and v. Blobs: three discs of radius 8 to 25 px are cut out of each of so
 many masks. Pixels: so many of all pixels flip (salt and pepper), without a filter. Rotation: the reported
 cameras are turned about each axis by the stated deviation. Pixels are those of an image of 1024; for other
-sizes they are scaled. An octant of depth 7 is 7.5 px wide: 2, 4 and 8 px of contour noise are 0.27, 0.53 and
-1.07 octants.
+sizes they are scaled. An octant of depth 7 is 7.5 of these pixels wide: 2, 4 and 8 px of contour noise are 0.27, 0.53
+and 1.07 octants; at depth 6 an octant is twice as wide and the same noise half as many octants.
 
 **Held-out seeds.** The constants of the local hulls were chosen on jug, sphere and torus with the seeds 1,
 2 and 3 alone. All numbers here are of other seeds, and three of the six objects were never looked at while

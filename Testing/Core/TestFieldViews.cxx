@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FieldViews.h"
+
+#include "CarvingTestCaptures.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+constexpr int Size = 320;
+constexpr double Radius = 0.7;
+constexpr double Distance = 6.0;     // of the cameras, as swayingRing() has it
+constexpr double Focal = 2.2 * Size; // likewise
+
+std::vector<int> allOf(const FieldViews& views)
+{
+  std::vector<int> all(views.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+PreparedViews sphereViews(int count)
+{
+  return prepareViews(viewsOf(sphereMesh(5, Radius), swayingRing(count, Size), Size));
+}
+
+std::vector<LatticePoint> somePoints(const Lattice& lattice, int count, std::uint64_t seed)
+{
+  Random random(seed);
+  std::vector<LatticePoint> points;
+  for (int n = 0; n < count; ++n)
+  {
+    const int side = lattice.cells() + 1;
+    points.push_back({ random.below(side), random.below(side), random.below(side) });
+  }
+  return points;
+}
+
+Vector2 projected(const Projection& projection, const Vector3& p)
+{
+  const Vector3 h = projection * p.homogeneous();
+  return { h[0] / h[2], h[1] / h[2] };
+}
+
+} // namespace
+
+/** A point at angle a off the axis lies depth * (tan b - tan a) inside the cone of half angle b, across the view. */
+TEST(FieldViews, InsideOfASphereIsItsConesDistance)
+{
+  Execution execution;
+  const PreparedViews views = sphereViews(9);
+  const Lattice lattice{ unitCube(), 5 };
+  const double reach = 6.0;
+  FieldViews fieldViews(views, lattice, reach);
+  fieldViews.observe(allOf(fieldViews), execution);
+  EXPECT_EQ(fieldViews.size(), 9);
+  EXPECT_EQ(fieldViews.reach(), reach);
+  const double leaf = lattice.leafEdge();
+  const double pixel = Distance / Focal / leaf; // in octants: 0.1
+  const double tangent = Radius / std::sqrt(Distance * Distance - Radius * Radius);
+  int cutOff = 0, near = 0;
+  for (int view = 0; view < views.size(); ++view)
+  {
+    EXPECT_NEAR(fieldViews.pixelsPerOctant(view) * pixel, 1.0, 1e-9);
+    for (const LatticePoint& p : somePoints(lattice, 1500, std::uint64_t(view)))
+    {
+      const Vector3 h = views[view].projection * lattice.position(p).homogeneous();
+      const double middle = 0.5 * (Size - 1);
+      const double aside = std::max(std::abs(h[0] / h[2] - middle), std::abs(h[1] / h[2] - middle));
+      if (h[2] < Distance / 1.2 || aside > middle)
+      {
+        continue; // beyond the image it is estimated; nearer to the camera it is cut off earlier
+      }
+      const double offAxis = std::hypot(h[0] / h[2] - middle, h[1] / h[2] - middle) / Focal;
+      const double expected = std::clamp(h[2] / leaf * (tangent - offAxis), -reach, reach);
+      const float found = fieldViews.inside(fieldViews.observed(view), fieldViews.place(view, p));
+      EXPECT_NEAR(found, expected, 1.2 * pixel) << view << ": " << p.i << " " << p.j << " " << p.k;
+      EXPECT_LE(std::abs(found), reach);
+      near += std::abs(expected) < 0.9 * reach;
+      cutOff += std::abs(expected) == reach;
+    }
+  }
+  EXPECT_GT(near, 3000);
+  EXPECT_GT(cutOff, 300);
+}
+
+TEST(FieldViews, AShiftMovesEveryPlaceByItsPixels)
+{
+  const PreparedViews views = sphereViews(4);
+  const Lattice lattice{ unitCube(), 5 };
+  FieldViews fieldViews(views, lattice, 5.0);
+  const FieldViews still = fieldViews;
+  fieldViews.addShift(1, Vector2(1.25, -3.5));
+  fieldViews.addShift(1, Vector2(0.5, 0.5));
+  fieldViews.addShift(3, Vector2(-20.0, 7.0));
+  EXPECT_EQ(fieldViews.shift(1), Vector2(1.75, -3.0));
+  EXPECT_EQ(fieldViews.shift(2), Vector2(0.0, 0.0));
+  for (int view = 0; view < 4; ++view)
+  {
+    for (const LatticePoint& p : somePoints(lattice, 300, 7))
+    {
+      const auto before = still.place(view, p), after = fieldViews.place(view, p);
+      const Vector2 expected = projected(views[view].projection, lattice.position(p));
+      EXPECT_NEAR(before.u, expected[0], 1e-8);
+      EXPECT_NEAR(before.v, expected[1], 1e-8);
+      EXPECT_NEAR(after.u - before.u, fieldViews.shift(view)[0], 1e-8);
+      EXPECT_NEAR(after.v - before.v, fieldViews.shift(view)[1], 1e-8);
+      EXPECT_NEAR(after.octantsPerPixel, before.octantsPerPixel, 1e-12);
+    }
+  }
+}
+
+TEST(FieldViews, RenderIsTheSilhouetteOfTheShiftedProjection)
+{
+  Execution execution;
+  const PreparedViews views = sphereViews(5);
+  FieldViews fieldViews(views, { unitCube(), 5 }, 5.0);
+  fieldViews.observe(allOf(fieldViews), execution);
+  fieldViews.addShift(2, Vector2(4.6, -2.3));
+  fieldViews.addShift(4, Vector2(-1.5, 0.25));
+  const Mesh mesh = torusMesh(40, 20, 0.6, 0.2);
+  const std::vector<int> asked{ 4, 0, 2 };
+  const auto images = fieldViews.render(mesh, asked, execution);
+  ASSERT_EQ(images.size(), asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i)
+  {
+    Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
+    shift.col(2).head<2>() = fieldViews.shift(asked[i]);
+    const Projection shifted = shift * views[asked[i]].projection;
+    EXPECT_EQ(images[i].pixels, renderSilhouette(mesh, shifted, Size, Size).pixels) << asked[i];
+    EXPECT_EQ(images[i].pixels == renderSilhouette(mesh, views[asked[i]].projection, Size, Size).pixels, i == 1);
+  }
+  const auto maps = fieldViews.distances(images, execution);
+  ASSERT_EQ(maps.size(), images.size());
+  for (std::size_t i = 0; i < maps.size(); ++i)
+  {
+    EXPECT_GE(maps[i].reach, 5.0 * fieldViews.pixelsPerOctant(asked[i]));
+    EXPECT_EQ(maps[i].value, distanceMap(images[i].pixels.data(), Size, Size, maps[i].reach).value);
+  }
+}
+
+TEST(FieldViews, AViewThatAbstainsLeavesTheWholeReach)
+{
+  Execution execution;
+  auto captured = viewsOf(sphereMesh(4, Radius), swayingRing(4, Size), Size);
+  Projection behind = captured[0].projection; // looks away
+  behind.row(2) *= -1.0;
+  behind.topRows<2>() *= -1.0;
+  captured.push_back({ "behind", behind, captured[0].silhouette });
+  const Lattice lattice{ unitCube(3.0), 5 };
+  for (const OutsidePolicy policy : { OutsidePolicy::Unknown, OutsidePolicy::Background })
+  {
+    const PreparedViews views = prepareViews(captured, policy);
+    FieldViews fieldViews(views, lattice, 4.0);
+    fieldViews.observe(allOf(fieldViews), execution);
+    const LatticeViews votes(views, lattice);
+    int abstained = 0, beyond = 0;
+    for (int view = 0; view < views.size(); ++view)
+    {
+      for (const LatticePoint& p : somePoints(lattice, 800, 11))
+      {
+        const auto place = fieldViews.place(view, p);
+        const bool abstains = votes.vote(view, p) == Vote::Abstain;
+        EXPECT_EQ(place.octantsPerPixel == 0.0, abstains) << view;
+        const float inside = fieldViews.inside(fieldViews.observed(view), place);
+        EXPECT_TRUE(!abstains || inside == 4.0f) << inside;
+        const bool outside = place.u < -0.5 || place.v < -0.5 || place.u > Size - 0.5 || place.v > Size - 0.5;
+        EXPECT_TRUE(abstains || !outside || inside < 0.0f) << inside;
+        abstained += abstains && view < 4;
+        beyond += !abstains && outside;
+      }
+      EXPECT_TRUE(view < 4 || fieldViews.place(view, { 16, 16, 16 }).octantsPerPixel == 0.0);
+    }
+    EXPECT_EQ(abstained > 100, policy == OutsidePolicy::Unknown) << abstained;
+    EXPECT_EQ(beyond > 100, policy == OutsidePolicy::Background) << beyond;
+  }
+}
+
+TEST(FieldViews, SameForAnyNumberOfThreads)
+{
+  const PreparedViews views = sphereViews(7);
+  const auto make = [&](Execution& execution)
+  {
+    FieldViews fieldViews(views, { unitCube(), 5 }, 5.0);
+    fieldViews.observe({ 0, 1, 2, 4, 5, 6 }, execution);
+    const auto images = fieldViews.render(sphereMesh(3, 0.5), { 0, 1, 2 }, execution);
+    auto maps = fieldViews.distances(images, execution);
+    for (const int view : { 0, 1, 2, 4, 5, 6 })
+    {
+      maps.push_back(fieldViews.observed(view));
+    }
+    return maps;
+  };
+  Execution serial;
+  const auto one = make(serial);
+  for (const int threads : { 2, 8 })
+  {
+    ThreadedExecution execution(threads);
+    const auto many = make(execution);
+    ASSERT_EQ(many.size(), one.size());
+    for (std::size_t i = 0; i < one.size(); ++i)
+    {
+      EXPECT_EQ(many[i].value, one[i].value);
+      EXPECT_FALSE(one[i].value.empty());
+    }
+  }
+}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ViewAlignment.h"
+
+#include "CarvingTestCaptures.h"
+#include "SyntheticCapture.h"
+#include "SyntheticShapes.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+constexpr int Size = 256;
+constexpr int Views = 12;
+constexpr double Limit = 3.0; // octants
+
+Mesh coarse(SyntheticShape shape)
+{
+  SyntheticShapeOptions options;
+  options.refinement = 0.5;
+  return syntheticShape(shape, options);
+}
+
+/** A mesh's clean silhouettes, their projections' principal points then shifted. */
+PreparedViews shiftedViews(const Mesh& mesh, const std::vector<Vector2>& shifts)
+{
+  auto views = viewsOf(mesh, syntheticCameras(mesh, Views, Size, Size), Size);
+  for (std::size_t i = 0; i < shifts.size(); ++i)
+  {
+    Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
+    shift.col(2).head<2>() = shifts[i];
+    views[i].projection = shift * views[i].projection;
+  }
+  return prepareViews(views);
+}
+
+std::vector<int> all()
+{
+  std::vector<int> views(Views);
+  std::iota(views.begin(), views.end(), 0);
+  return views;
+}
+
+std::vector<ContourResidual> residualsOf(const PreparedViews& views, const Mesh& surface, Execution& execution)
+{
+  FieldViews fieldViews(views, { unitCube(1.05), 6 }, 5.0);
+  fieldViews.observe(all(), execution);
+  return contourResiduals(fieldViews, surface, all(), Limit, execution);
+}
+
+std::vector<Vector2> randomShifts(std::uint64_t seed, double most)
+{
+  Random random(seed);
+  std::vector<Vector2> shifts;
+  for (int i = 0; i < Views; ++i)
+  {
+    const double u = random.uniform(-most, most);
+    shifts.emplace_back(u, random.uniform(-most, most));
+  }
+  return shifts;
+}
+
+} // namespace
+
+TEST(ViewAlignment, TheTrueSurfaceTellsEachViewsShift)
+{
+  Execution execution;
+  for (const SyntheticShape shape : { SyntheticShape::Jug, SyntheticShape::Torus })
+  {
+    const Mesh mesh = coarse(shape);
+    for (const double most : { 0.0, 0.7, 2.5 })
+    {
+      const auto shifts = randomShifts(std::uint64_t(shape) + 1, most);
+      const auto residuals = residualsOf(shiftedViews(mesh, shifts), mesh, execution);
+      ASSERT_EQ(residuals.size(), shifts.size());
+      for (int view = 0; view < Views; ++view)
+      {
+        EXPECT_GT(residuals[view].count, 200u);
+        // The distance of what lies askew is less than the shift: a large one is found in rounds.
+        EXPECT_LT((residuals[view].shift + shifts[view]).norm(), std::max(0.2, 0.2 * shifts[view].norm()))
+          << "shape " << int(shape) << " view " << view << ": " << residuals[view].shift.transpose() << " for "
+          << shifts[view].transpose();
+        EXPECT_NEAR(residuals[view].mean, 0.0, 0.05 + 0.05 * most) << "shape " << int(shape) << " view " << view;
+      }
+      EXPECT_NEAR(typicalResidual(residuals), 0.0, 0.05);
+    }
+    const auto shifts = randomShifts(7, 2.5);
+    const PreparedViews views = shiftedViews(mesh, shifts);
+    FieldViews fieldViews(views, { unitCube(1.05), 6 }, 5.0);
+    fieldViews.observe(all(), execution);
+    for (int round = 0; round < 2; ++round)
+    {
+      const auto residuals = contourResiduals(fieldViews, mesh, all(), Limit, execution);
+      for (int view = 0; view < Views; ++view)
+      {
+        fieldViews.addShift(view, residuals[view].shift);
+      }
+    }
+    for (int view = 0; view < Views; ++view)
+    {
+      EXPECT_LT((fieldViews.shift(view) + shifts[view]).norm(), 0.2) << "shape " << int(shape) << " view " << view;
+    }
+  }
+}
+
+TEST(ViewAlignment, ASurfaceThatIsTooSmallOrTooLargeIsNotShifted)
+{
+  Execution execution;
+  const Mesh truth = torusMesh(64, 32, 0.6, 0.25);
+  const PreparedViews views = shiftedViews(truth, {});
+  const double leaf = 2.1 / 64;
+  const double pixels = FieldViews(views, { unitCube(1.05), 6 }, 5.0).pixelsPerOctant(0);
+  for (const double octants : { -1.5, -0.6, 0.6, 1.5 })
+  {
+    const Mesh mesh = torusMesh(64, 32, 0.6, 0.25 + octants * leaf);
+    const auto residuals = residualsOf(views, mesh, execution);
+    for (const auto& residual : residuals)
+    {
+      EXPECT_GT(residual.count, 200u);
+      EXPECT_LT(residual.mean * octants, 0.0) << octants; // outside what is too small, inside what is too large
+      EXPECT_NEAR(residual.mean, -octants, 0.3 * std::abs(octants));
+      EXPECT_LT(residual.shift.norm(), 0.2 * std::abs(octants) * pixels);
+    }
+    EXPECT_NEAR(typicalResidual(residuals), -octants, 0.2 * std::abs(octants));
+  }
+}
+
+TEST(ViewAlignment, NothingIsSaidOfWhatIsThinOrFarAway)
+{
+  Execution execution;
+  const Mesh twig = coarse(SyntheticShape::Twig);
+  const auto thin = residualsOf(shiftedViews(twig, randomShifts(3, 1.0)), twig, execution);
+  for (const auto& residual : thin)
+  {
+    EXPECT_EQ(residual.count, 0u);
+    EXPECT_EQ(residual.mean, 0.0);
+    EXPECT_EQ(residual.shift, Vector2(0.0, 0.0));
+  }
+  EXPECT_EQ(typicalResidual(thin), 0.0);
+
+  const PreparedViews views = shiftedViews(torusMesh(64, 32, 0.6, 0.25), {});
+  Mesh small = sphereMesh(4, 0.2); // in the torus's hole and nowhere near its contour
+  for (const auto& residual : residualsOf(views, small, execution))
+  {
+    EXPECT_LT(residual.count, 200u);
+  }
+  for (Vector3& p : small.points)
+  {
+    p += Vector3(0.0, 0.0, 50.0); // out of every view
+  }
+  for (const auto& residual : residualsOf(views, small, execution))
+  {
+    EXPECT_EQ(residual.count, 0u);
+  }
+}
+
+TEST(ViewAlignment, TheTypicalResidualIsTheMeanByCount)
+{
+  EXPECT_EQ(typicalResidual({}), 0.0);
+  EXPECT_EQ(typicalResidual({ { 0, 5.0, Vector2::Zero() } }), 0.0);
+  EXPECT_DOUBLE_EQ(typicalResidual({ { 10, 1.0, Vector2::Zero() }, { 30, -0.5, Vector2::Zero() } }), -0.125);
+}
+
+TEST(ViewAlignment, SameForAnyNumberOfThreads)
+{
+  const Mesh mesh = torusMesh(48, 24, 0.6, 0.25);
+  const PreparedViews views = shiftedViews(mesh, randomShifts(9, 2.0));
+  Execution serial;
+  const auto one = residualsOf(views, mesh, serial);
+  for (const int threads : { 2, 8 })
+  {
+    ThreadedExecution execution(threads);
+    const auto many = residualsOf(views, mesh, execution);
+    ASSERT_EQ(many.size(), one.size());
+    for (int view = 0; view < Views; ++view)
+    {
+      EXPECT_EQ(many[view].count, one[view].count);
+      EXPECT_EQ(many[view].mean, one[view].mean);
+      EXPECT_EQ(many[view].shift, one[view].shift);
+    }
+  }
+}
