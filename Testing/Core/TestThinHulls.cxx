@@ -6,6 +6,7 @@
 #include "EdgeCrossing.h"
 #include "LatticeRegions.h"
 #include "MeshDistance.h"
+#include "RobustLabels.h"
 #include "SurvivorCovering.h"
 #include "SurvivorCoverage.h"
 
@@ -19,25 +20,6 @@ using namespace silhouette::test;
 
 namespace
 {
-
-/** The shell with the eight cells around each of the given points. */
-CornerShell extended(const CornerShell& shell, const std::vector<std::uint64_t>& points)
-{
-  Execution execution;
-  std::vector<std::uint64_t> cells = shell.cells;
-  for (const std::uint64_t point : points)
-  {
-    const LatticePoint p = fromMorton(point);
-    for (int n = 0; n < 8; ++n)
-    {
-      const LatticePoint o = cornerOffset(n);
-      cells.push_back(mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k }));
-    }
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return makeCornerShell(std::move(cells), execution);
-}
 
 /** Everything up to the covered surface, and the thin hulls on it. */
 struct Covered
@@ -62,7 +44,7 @@ struct Covered
       this->added.push_back(this->labels.shell().corners[corner]);
     }
     std::sort(this->added.begin(), this->added.end());
-    this->shell = extended(this->labels.shell(), this->added);
+    this->shell = extendedShell(this->labels.shell(), this->added, this->execution);
     std::vector<std::uint8_t> inside;
     for (const std::uint64_t corner : this->shell.corners)
     {
