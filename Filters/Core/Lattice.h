@@ -27,10 +27,22 @@ struct LatticePoint
   LatticePoint operator+(const LatticePoint& o) const { return { i + o.i, j + o.j, k + o.k }; }
 };
 
+/** Lattice coordinates of a point, as a vector. */
+inline Eigen::Vector3d toVector(const LatticePoint& p)
+{
+  return { double(p.i), double(p.j), double(p.k) };
+}
+
 /** Corner or child number c in 0..7: bit 0 is x, bit 1 is y, bit 2 is z. */
 inline LatticePoint cornerOffset(int c)
 {
   return { c & 1, (c >> 1) & 1, (c >> 2) & 1 };
+}
+
+/** The n-th of the 27 lattice points around p, itself the 13th, in the order of k, j, i. */
+inline LatticePoint neighbourOf(const LatticePoint& p, int n)
+{
+  return { p.i + n % 3 - 1, p.j + n / 3 % 3 - 1, p.k + n / 9 - 1 };
 }
 
 /** Spread the lower 21 bits of x so that two zero bits follow each. */

@@ -9,6 +9,7 @@
 #include "SurvivorCovering.h"
 #include "SurvivorIslands.h"
 #include "ThesisHullSurface.h"
+#include "ThinHullFitting.h"
 #include "UnionFind.h"
 
 #include <algorithm>
@@ -310,15 +311,6 @@ LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& octree, cons
   return robustSurface(imperfect, octree, views, plainOptions(options), again);
 }
 
-/** What the Thesis mode takes its points from: every survivor covered, and nothing corrected. */
-LocalHullSurface coveredSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
-  const LocalHullOptions& options, Execution& execution)
-{
-  LocalHullOptions plain = plainOptions(options);
-  plain.thinHulls = false;
-  return robustSurface(imperfect, octree, views, plain, execution);
-}
-
 LocalHullSurface thesisSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
   const LocalHullOptions& options, Execution& execution)
 {
@@ -357,6 +349,16 @@ LocalHullSurface localHullSurface(const Mesh& imperfect, const Octree& octree, c
   surface.droppedOctants = dropped;
   execution.progress(1.0);
   return surface;
+}
+
+LocalHullSurface coveredSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
+  const LocalHullOptions& options, Execution& execution)
+{
+  LocalHullOptions plain = plainOptions(options);
+  plain.mode = LocalHullMode::Robust;
+  plain.islandShare = 0.0;
+  plain.thinHulls = false;
+  return localHullSurface(imperfect, octree, views, plain, execution);
 }
 
 std::vector<LocalHull> classifyLocalHulls(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,

@@ -75,6 +75,13 @@ struct LocalHullSurface
 LocalHullSurface localHullSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
   const LocalHullOptions& options, Execution& execution);
 
+/**
+ * The same with nothing corrected and every point on its lattice edge: what the Thesis mode takes its points from, and what
+ * thesisHullSurface() asks for. Errors and cost as above.
+ */
+LocalHullSurface coveredSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
+  const LocalHullOptions& options, Execution& execution);
+
 /** The local hulls themselves, classified on the imperfect surface. */
 std::vector<LocalHull> classifyLocalHulls(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
   const LocalHullOptions& options, Execution& execution);

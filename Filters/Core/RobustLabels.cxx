@@ -81,7 +81,7 @@ void pinWhereBricksEnd(const Octree& octree, BrickField& field, Execution& execu
         std::array<bool, 27> present;
         for (int n = 0; n < 27; ++n)
         {
-          const LatticePoint q{ b.i + n % 3 - 1, b.j + n / 3 % 3 - 1, b.k + n / 9 - 1 };
+          const LatticePoint q = neighbourOf(b, n);
           present[n] = q.i >= 0 && q.j >= 0 && q.k >= 0 && field.findBrick(mortonCode(q)) >= 0;
         }
         if (std::find(present.begin(), present.end(), false) == present.end())

@@ -151,7 +151,7 @@ UnionFind componentsOf(const std::vector<Rejected>& corners)
     const LatticePoint p = fromMorton(corners[c].corner);
     for (int n = 14; n < 27; ++n) // the thirteen neighbours that follow 13, the corner itself
     {
-      const LatticePoint q = p + LatticePoint{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+      const LatticePoint q = neighbourOf(p, n);
       if (std::min({q.i, q.j, q.k}) < 0)
       {
         continue;

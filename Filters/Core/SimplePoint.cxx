@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SimplePoint.h"
 
+#include "Lattice.h"
+
 #include <cstdlib>
 
 namespace silhouette
@@ -10,21 +12,11 @@ namespace
 
 constexpr int Centre = 13;
 
-struct Offset
-{
-  int x, y, z;
-};
-
-Offset offsetOf(int n)
-{
-  return { n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1 };
-}
-
 /** Number of coordinates in which two of the 27 points differ, or 4 where they are no 26-neighbours. */
 int distance(int a, int b)
 {
-  const Offset p = offsetOf(a), q = offsetOf(b);
-  const int dx = std::abs(p.x - q.x), dy = std::abs(p.y - q.y), dz = std::abs(p.z - q.z);
+  const LatticePoint p = neighbourOf({}, a), q = neighbourOf({}, b);
+  const int dx = std::abs(p.i - q.i), dy = std::abs(p.j - q.j), dz = std::abs(p.k - q.k);
   return dx > 1 || dy > 1 || dz > 1 ? 4 : dx + dy + dz;
 }
 

@@ -45,7 +45,7 @@ public:
       {
         for (int n = 0; n < 27; ++n)
         {
-          const LatticePoint p = fromMorton(code) + LatticePoint{ n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1 };
+          const LatticePoint p = neighbourOf(fromMorton(code), n);
           if (this->TheLattice.onBorder(p) || !from.emplace(mortonCode(p), code).second)
           {
             continue;

@@ -78,17 +78,12 @@ private:
     this->Result.coveredCells = this->Lost;
   }
 
-  static LatticePoint neighbour(const LatticePoint& p, int n)
-  {
-    return { p.i + n % 3 - 1, p.j + n / 3 % 3 - 1, p.k + n / 9 - 1 };
-  }
-
   Effect effectOf(const LatticePoint& p)
   {
     Neighbourhood labels;
     for (int n = 0; n < 27; ++n)
     {
-      labels[n] = n != 13 && this->Labels.insideAt(neighbour(p, n));
+      labels[n] = n != 13 && this->Labels.insideAt(neighbourOf(p, n));
     }
     const auto numbers = topologicalNumbers(labels);
     if (isSimple(numbers))
@@ -110,7 +105,7 @@ private:
     {
       for (int n = 0; n < 27; ++n)
       {
-        const auto corner = numbers.insideComponent[n] == part ? this->shell().find(mortonCode(neighbour(p, n))) : -1;
+        const auto corner = numbers.insideComponent[n] == part ? this->shell().find(mortonCode(neighbourOf(p, n))) : -1;
         if (corner >= 0)
         {
           roots.push_back(this->component(std::uint32_t(corner)));
@@ -167,7 +162,7 @@ private:
     for (int n = 0; n < 27; ++n)
     {
       const int differing = (n % 3 != 1) + (n / 3 % 3 != 1) + (n / 9 != 1);
-      const auto other = differing == 1 || differing == 2 ? this->shell().find(mortonCode(neighbour(p, n))) : -1;
+      const auto other = differing == 1 || differing == 2 ? this->shell().find(mortonCode(neighbourOf(p, n))) : -1;
       if (other >= 0 && this->inside(std::uint32_t(other)))
       {
         this->Solid.sets.unite(corner, std::uint32_t(other));

@@ -62,7 +62,7 @@ struct Scene
     VotingOptions options;
     options.share = double(views_ - k) / views_;
     this->imperfect = votingMarchingCubes(this->octree, this->views, options, this->execution).mesh;
-    this->covered = localHullSurface(this->imperfect, this->octree, &this->views, {}, this->execution).mesh;
+    this->covered = coveredSurface(this->imperfect, this->octree, &this->views, {}, this->execution).mesh;
   }
   Execution execution;
   PreparedViews views;
@@ -142,7 +142,7 @@ TEST(ThesisHullSurface, AConvexObjectIsOneHullGivenOutAsItsOwnFacets)
       prepareViews(viewsOf(shape == 6 ? box : shapeOf(shape), swayingRing(24, 300), 300));
     const Octree octree = carveViews(views, unitCube(), 5);
     const Mesh imperfect = votingMarchingCubes(octree, views, {}, execution).mesh;
-    const Mesh covered = localHullSurface(imperfect, octree, &views, {}, execution).mesh;
+    const Mesh covered = coveredSurface(imperfect, octree, &views, {}, execution).mesh;
     for (const bool single : { false, true })
     {
       LocalHullOptions options;

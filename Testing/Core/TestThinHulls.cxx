@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ThinHulls.h"
+#include "ThinHullFitting.h"
 
 #include "CarvingTestCaptures.h"
 #include "CellSafety.h"

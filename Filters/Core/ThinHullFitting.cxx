@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ThinHullFitting.h"
+
+#include "BoxTree.h"
+#include "SelfIntersections.h"
+#include "SurvivorCoverage.h"
+#include "UnionFind.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace silhouette
+{
+namespace
+{
+
+/** The union of the hulls and of what is inside all silhouettes, lattice coordinates. */
+class ThinSolid
+{
+public:
+  ThinSolid(const std::vector<ThinHull>& hulls, const Lattice& lattice, const SilhouetteDepth* depth)
+    : Hulls(onLattice(hulls, lattice))
+    , Tree(boxesOf(this->Hulls))
+    , Depth(depth)
+  {
+  }
+
+  /** Is a point, lattice coordinates, nearer to the silhouettes' contours than another? */
+  bool isBetter(const Vector3& p, const Vector3& other) const
+  {
+    return !this->Depth || std::abs((*this->Depth)(p)) < std::abs((*this->Depth)(other));
+  }
+
+  /**
+   * Where the surface lies between a covering corner and the lattice point beyond it: seen from the nearest hull's inside, before that
+   * point. False where no hull is near.
+   */
+  bool surfaceBetween(const Vector3& inside, const Vector3& outside, Vector3& target) const
+  {
+    const Vector3 middle = 0.5 * (inside + outside);
+    std::vector<std::int32_t> near;
+    this->Tree.overlapping(Box(middle - Vector3::Constant(1.5), middle + Vector3::Constant(1.5)),
+      [&](std::int32_t hull) { near.push_back(hull); });
+    const NearestBall from = this->nearest(near, middle);
+    // Not quite the point beyond: edges that end at one point are to lead to different places.
+    const Vector3 ray = inside + 0.85 * (outside - inside) - from.centre;
+    const double length = ray.norm();
+    if (near.empty() || length < 1e-6)
+    {
+      return false;
+    }
+    const Vector3 heading = ray / length;
+    const double farthest = length + 0.3;
+    double before = 0.0, behind = 0.0;
+    for (; behind < farthest; before = behind)
+    {
+      const double depth = this->depthAt(near, from.centre + behind * heading);
+      if (depth <= 0.0)
+      {
+        break;
+      }
+      behind += std::max(0.8 * depth, 0.02);
+    }
+    for (int halving = 0; halving < 7; ++halving)
+    {
+      const double half = 0.5 * (before + behind);
+      (this->depthAt(near, from.centre + half * heading) > 0.0 ? before : behind) = half;
+    }
+    target = from.centre + before * heading;
+    return true;
+  }
+
+private:
+  static std::vector<ThinHull> onLattice(std::vector<ThinHull> hulls, const Lattice& lattice)
+  {
+    for (ThinHull& hull : hulls)
+    {
+      for (int end = 0; end < 2; ++end)
+      {
+        hull.centre[end] = (hull.centre[end] - lattice.root.origin) / lattice.leafEdge();
+        hull.radius[end] /= lattice.leafEdge();
+      }
+    }
+    return hulls;
+  }
+
+  static std::vector<Box> boxesOf(const std::vector<ThinHull>& hulls)
+  {
+    std::vector<Box> boxes;
+    for (const ThinHull& hull : hulls)
+    {
+      Box box(hull.centre[0]);
+      boxes.push_back(box.extend(hull.centre[1]));
+    }
+    return boxes;
+  }
+
+  NearestBall nearest(const std::vector<std::int32_t>& hulls, const Vector3& p) const
+  {
+    NearestBall best;
+    best.distance = 1e300;
+    for (const std::int32_t hull : hulls)
+    {
+      const NearestBall ball = nearestBall(this->Hulls[hull], p);
+      best = ball.distance < best.distance ? ball : best;
+    }
+    return best;
+  }
+
+  double depthAt(const std::vector<std::int32_t>& hulls, const Vector3& p) const
+  {
+    const double inHulls = -this->nearest(hulls, p).distance;
+    return this->Depth && inHulls <= 0.0 ? std::max(inHulls, (*this->Depth)(p)) : inHulls;
+  }
+
+  std::vector<ThinHull> Hulls;
+  BoxTree Tree;
+  const SilhouetteDepth* Depth;
+};
+
+/** Moves points out, and back where that does harm. */
+class Motion
+{
+public:
+  Motion(const ThinSurface& thin, const ThinSolid& solid, double reach, Mesh& mesh, Execution& execution)
+    : Thin(thin)
+    , TheMesh(mesh)
+    , Run(execution)
+    , Original(mesh.points)
+    , Number(mesh.points.size(), -1)
+  {
+    this->aim(solid, reach);
+  }
+
+  std::uint64_t run()
+  {
+    this->findNeighbourhood();
+    for (const std::size_t m : this->Points)
+    {
+      this->place(this->Number[m]);
+    }
+    this->withdrawIntersections();
+    while (this->withdrawLost() || this->withdrawInverted())
+    {
+      this->withdrawIntersections();
+    }
+    this->Run.checkpoint(1.0);
+    return std::uint64_t(std::count_if(
+      this->Scale.begin(), this->Scale.end(), [](double scale) { return scale > 0.0; }));
+  }
+
+private:
+  static constexpr int Rounds = 5; ///< after so many a point stays where it was
+
+  const Lattice& lattice() const { return this->Thin.labels.octree().lattice; }
+
+  /** Does a covering corner touch the solid that was there before? Then it may lie nearer to the surface than any hull. */
+  bool onSolid(std::uint64_t corner) const
+  {
+    for (int n = 0; n < 27; ++n)
+    {
+      const LatticePoint p = neighbourOf(fromMorton(corner), n);
+      if (this->Thin.labels.insideAt(p) &&
+        !std::binary_search(this->Thin.added.begin(), this->Thin.added.end(), mortonCode(p)))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void aim(const ThinSolid& solid, double reach)
+  {
+    const auto& edges = this->Thin.surface.edges;
+    const CornerShell& shell = this->Thin.shell;
+    std::vector<std::size_t> candidates;
+    for (std::size_t e = 0; e < edges.size() && reach > 0.0; ++e)
+    {
+      if (std::binary_search(this->Thin.added.begin(), this->Thin.added.end(), shell.corners[edges[e].inside]))
+      {
+        candidates.push_back(e);
+      }
+    }
+    std::vector<Vector3> moves(candidates.size(), Vector3::Zero());
+    this->Run.forRanges(candidates.size(), 16,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t n = first; n < last; ++n)
+        {
+          const CrossedEdge& edge = edges[candidates[n]];
+          const Vector3 start = this->TheMesh.points[candidates[n]];
+          Vector3 target;
+          if (solid.surfaceBetween(toVector(fromMorton(shell.corners[edge.inside])),
+                toVector(fromMorton(shell.corners[edge.outside])), target) &&
+            (!this->onSolid(shell.corners[edge.inside]) ||
+              solid.isBetter(target, (start - this->lattice().root.origin) / this->lattice().leafEdge())))
+          {
+            const Vector3 move = this->lattice().root.origin + target * this->lattice().leafEdge() - start;
+            moves[n] = move * std::min(1.0, reach * this->lattice().leafEdge() / std::max(move.norm(), 1e-300));
+          }
+        }
+      });
+    for (std::size_t n = 0; n < candidates.size(); ++n)
+    {
+      if (moves[n] != Vector3::Zero())
+      {
+        this->Number[candidates[n]] = std::int32_t(this->Points.size());
+        this->Points.push_back(candidates[n]);
+        this->Moves.push_back(moves[n]);
+      }
+    }
+    this->Scale.assign(this->Points.size(), 1.0);
+    this->Withdrawn.assign(this->Points.size(), 0);
+    this->Run.checkpoint(0.3);
+  }
+
+  void place(std::size_t m)
+  {
+    const std::size_t point = this->Points[m];
+    Vector3 p = this->Original[point];
+    if (this->Scale[m] > 0.0)
+    {
+      p += this->Scale[m] * this->Moves[m];
+      p = this->Thin.singlePrecision ? roundedToFloat(p) : p;
+    }
+    this->TheMesh.points[point] = p;
+  }
+
+  bool withdraw(std::size_t m)
+  {
+    if (this->Scale[m] == 0.0)
+    {
+      return false;
+    }
+    this->Scale[m] = ++this->Withdrawn[m] >= Rounds ? 0.0 : this->Scale[m] * 0.6;
+    this->place(m);
+    return true;
+  }
+
+  /** The triangles that may meet a moving one, whatever the scales: a point stays between its two places. */
+  void findNeighbourhood()
+  {
+    const auto& triangles = this->TheMesh.triangles;
+    std::vector<Box> boxes(triangles.size());
+    std::vector<Box> moving;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+    {
+      bool moves = false;
+      for (const std::int32_t p : triangles[t])
+      {
+        boxes[t].extend(this->Original[p]);
+        if (this->Number[p] >= 0)
+        {
+          boxes[t].extend(this->Original[p] + this->Moves[this->Number[p]]);
+          moves = true;
+        }
+      }
+      if (moves)
+      {
+        const Vector3 slack = Vector3::Constant(1e-3 * this->lattice().leafEdge()); // for rounding
+        moving.emplace_back(boxes[t].min() - slack, boxes[t].max() + slack);
+      }
+    }
+    const BoxTree tree(moving);
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+    {
+      bool near = false;
+      tree.overlapping(boxes[t], [&](std::int32_t) { near = true; });
+      if (near)
+      {
+        this->Near.push_back(std::int32_t(t));
+      }
+    }
+    this->Run.checkpoint(0.4);
+  }
+
+  /** The points that move and the triangles near them, on their own. */
+  Mesh nearMesh() const
+  {
+    std::vector<std::int32_t> number(this->TheMesh.points.size(), -1);
+    Mesh part;
+    for (const std::int32_t t : this->Near)
+    {
+      Triangle triangle = this->TheMesh.triangles[t];
+      for (std::int32_t& p : triangle)
+      {
+        if (number[p] < 0)
+        {
+          number[p] = std::int32_t(part.points.size());
+          part.points.push_back(this->TheMesh.points[p]);
+        }
+        p = number[p];
+      }
+      part.triangles.push_back(triangle);
+    }
+    return part;
+  }
+
+  void withdrawIntersections()
+  {
+    for (;;)
+    {
+      Phase phase(this->Run, 0.4, 0.4);
+      const auto pairs = selfIntersections(this->nearMesh(), phase);
+      if (pairs.empty())
+      {
+        return;
+      }
+      std::vector<std::size_t> points;
+      for (const TrianglePair& pair : pairs)
+      {
+        for (const std::int32_t t : pair)
+        {
+          for (const std::int32_t p : this->TheMesh.triangles[this->Near[t]])
+          {
+            points.push_back(std::size_t(p));
+          }
+        }
+      }
+      this->withdrawAll(points);
+    }
+  }
+
+  bool withdrawAll(std::vector<std::size_t>& points)
+  {
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    bool any = false;
+    for (const std::size_t p : points)
+    {
+      any = (this->Number[p] >= 0 && this->withdraw(std::size_t(this->Number[p]))) || any;
+    }
+    return any;
+  }
+
+  /** Six times the signed volume of each component, by its first point, with the given points. */
+  std::vector<double> volumes(const std::vector<Vector3>& points)
+  {
+    std::vector<double> volume(points.size(), 0.0);
+    for (const Triangle& t : this->TheMesh.triangles)
+    {
+      const std::uint32_t first = this->Components.find(std::uint32_t(t[0]));
+      const Vector3& o = points[first];
+      volume[first] += (points[t[0]] - o).cross(points[t[1]] - o).dot(points[t[2]] - o);
+    }
+    return volume;
+  }
+
+  /** Withdraw components that the moves have turned inside out; false where there are none. */
+  bool withdrawInverted()
+  {
+    if (this->Components.size() == 0)
+    {
+      this->Components = UnionFind(this->TheMesh.points.size());
+      for (const Triangle& t : this->TheMesh.triangles)
+      {
+        this->Components.unite(std::uint32_t(t[0]), std::uint32_t(t[1]));
+        this->Components.unite(std::uint32_t(t[0]), std::uint32_t(t[2]));
+      }
+    }
+    const std::vector<double> before = this->volumes(this->Original), now = this->volumes(this->TheMesh.points);
+    bool any = false;
+    for (std::size_t m = 0; m < this->Points.size(); ++m)
+    {
+      const std::uint32_t component = this->Components.find(std::uint32_t(this->Points[m]));
+      if (before[component] > 0.0 && !(now[component] > 0.0))
+      {
+        any = this->withdraw(m) || any;
+      }
+    }
+    return any;
+  }
+
+  /** Withdraw around the survivors that the surface has lost; false where there are none. */
+  bool withdrawLost()
+  {
+    const Octree& octree = this->Thin.octree;
+    Phase phase(this->Run, 0.9, 0.9);
+    const auto coverage = survivorCoverage(octree, this->TheMesh, phase);
+    std::vector<std::uint64_t> lost;
+    for (std::size_t o = 0; o < coverage.size(); ++o)
+    {
+      if (coverage[o] == Coverage::Lost && octree.last().state[o] != OctantState::Background)
+      {
+        lost.push_back(octree.last().code[o]);
+      }
+    }
+    if (lost.empty())
+    {
+      return false;
+    }
+    for (int ring = 0; ring <= 2; ++ring)
+    {
+      std::vector<std::size_t> points = this->pointsAround(lost, ring);
+      if (this->withdrawAll(points))
+      {
+        return true;
+      }
+    }
+    bool any = false;
+    for (std::size_t m = 0; m < this->Points.size(); ++m)
+    {
+      any = this->withdraw(m) || any;
+    }
+    return any;
+  }
+
+  /** The points that lay within `ring` octants of one of the octants. */
+  std::vector<std::size_t> pointsAround(const std::vector<std::uint64_t>& octants, int ring) const
+  {
+    std::vector<std::size_t> result;
+    for (const std::size_t point : this->Points)
+    {
+      const Vector3 p = (this->Original[point] - this->lattice().root.origin) / this->lattice().leafEdge();
+      for (const std::uint64_t code : octants)
+      {
+        const Vector3 away = p - toVector(fromMorton(code)) - Vector3::Constant(0.5);
+        if (away.cwiseAbs().maxCoeff() <= 0.5 + ring + 1e-3)
+        {
+          result.push_back(point);
+          break;
+        }
+      }
+    }
+    return result;
+  }
+
+  const ThinSurface& Thin;
+  Mesh& TheMesh;
+  Execution& Run;
+  std::vector<Vector3> Original;
+  std::vector<std::int32_t> Number; ///< of each point among those that move, or -1
+  std::vector<std::size_t> Points;  ///< that move
+  std::vector<Vector3> Moves;
+  UnionFind Components; ///< of the mesh's points
+  std::vector<double> Scale;
+  std::vector<int> Withdrawn;
+  std::vector<std::int32_t> Near; ///< triangles
+};
+
+} // namespace
+
+std::uint64_t moveToThinHulls(const std::vector<ThinHull>& hulls, const ThinSurface& thin, const SilhouetteDepth* depth,
+  const ThinHullOptions& options, Mesh& mesh, Execution& execution)
+{
+  checkThinHullOptions(options);
+  if (hulls.empty())
+  {
+    return 0;
+  }
+  const ThinSolid solid(hulls, thin.labels.octree().lattice, depth);
+  return Motion(thin, solid, options.reach, mesh, execution).run();
+}
+
+} // namespace silhouette
