@@ -153,6 +153,29 @@ bool hasInsideBorderCorner(const LatticePoint& cell, const Octree& octree, const
   return false;
 }
 
+/** The trees of a piece. */
+Octree carvePiece(const LatticeViews& views, int backgroundVotes, const Piece& piece, Execution& execution)
+{
+  CarveOptions options;
+  options.backgroundVotes = backgroundVotes;
+  if (piece.count == 1)
+  {
+    return carve(views, options, execution);
+  }
+  Phase dividing(execution, 0.0, 0.2);
+  options.trees = treesOfPiece(views, backgroundVotes, piece, dividing);
+  Phase carving(execution, 0.2, 1.0);
+  if (!options.trees.empty())
+  {
+    return carve(views, options, carving);
+  }
+  options.trees = {0}; // more pieces than work: an octree with everything but octants
+  Octree empty = selectTrees(carve(views, options, carving), {});
+  empty.statistics = CarveStatistics();
+  empty.statistics.carvedByView.assign(std::size_t(views.size()), 0.0);
+  return empty;
+}
+
 } // namespace
 
 Lattice makeLattice(const PreparedViews& views, const LatticeSettings& settings, Execution& execution)
@@ -248,9 +271,8 @@ CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings
     }
     warned = true;
     Phase carving(part, 0.25, 1.0);
-    CarveOptions options;
-    options.backgroundVotes = backgroundVotes;
-    return carve(LatticeViews(used, lattice), options, carving);
+    const Piece piece = automaticTolerance ? Piece() : settings.piece;
+    return carvePiece(LatticeViews(used, lattice), backgroundVotes, piece, carving);
   };
   CarvedViews carved;
   if (!automaticTolerance)
@@ -268,6 +290,12 @@ CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings
   carved.dilation = found.dilation;
   carved.uncovered = found.uncovered;
   carved.strictUncovered = found.strictUncovered;
+  if (settings.piece.count > 1)
+  {
+    const LatticeViews latticeViews(*carved.views, carved.octree.lattice);
+    carved.octree = selectTrees(
+        carved.octree, treesOfPiece(latticeViews, carved.octree.backgroundVotes, settings.piece, execution));
+  }
   return carved;
 }
 

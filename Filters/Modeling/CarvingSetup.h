@@ -7,6 +7,7 @@
 
 #include "Octree.h"
 #include "PreparedViewsSharing.h"
+#include "TreePieces.h"
 
 #include <array>
 #include <functional>
@@ -24,6 +25,7 @@ struct LatticeSettings
   bool automaticBounds = true;
   std::array<double, 6> bounds{};
   int backgroundVotes = 0;
+  Piece piece; ///< what is carved of the whole
 };
 
 /** The root cube and its depth. Throws InvalidInput for a setting out of range, and what automaticBounds
@@ -50,7 +52,8 @@ struct CarvedViews
  * Find the lattice and carve. With `automaticTolerance`, settings.backgroundVotes are the least, and more
  * votes, or dilated silhouettes, are taken where the silhouettes are not covered (CarvingTolerance.h). What
  * views and lattice deserve as warnings goes to `warn`, before carving: where nothing survives, these say
- * why.
+ * why. Of a piece its own trees alone are carved; with `automaticTolerance` the whole is carved first, since
+ * the tolerance is the whole's.
  */
 CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings, bool automaticTolerance,
                        const std::function<void(const std::string&)>& warn, Execution& execution);

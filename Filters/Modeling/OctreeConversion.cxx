@@ -328,7 +328,8 @@ Octree octreeOf(vtkHyperTreeGrid* grid)
     octree.generations[g].code.push_back(codes[cell]);
     octree.generations[g].state.push_back(OctantState(states->GetValue(cell)));
   }
-  if (octree.generations[octree.treeGeneration].size() != std::size_t(1) << 3 * octree.treeGeneration)
+  if (getIntegerField(grid, "NumberOfPieces", 1) == 1 &&
+      octree.generations[octree.treeGeneration].size() != std::size_t(1) << 3 * octree.treeGeneration)
   {
     throwIncomplete(octree.treeGeneration, octree.generations[octree.treeGeneration].size());
   }

@@ -5,6 +5,7 @@
 #include "LocalHullSurface.h"
 #include "MeshConversion.h"
 #include "OctreeConversion.h"
+#include "PieceRequests.h"
 #include "PreparedViewsSharing.h"
 #include "vtkSilhouetteExecution.h"
 
@@ -63,12 +64,23 @@ void storeSurface(const silhouette::LocalHullSurface& found, const MeshOutput& o
   setField(surface, "RepairedPixels", found.repairedPixels);
 }
 
-void storeHulls(const std::vector<silhouette::LocalHull>& found, const MeshOutput& output, vtkPolyData* hulls)
+/** The triangles of a piece: an even share, in order. */
+void takePiece(silhouette::Mesh& mesh, const silhouette::Piece& piece)
+{
+  if (piece.count > 1)
+  {
+    mesh = silhouette::selectTriangles(mesh, silhouette::rangeOfPiece(mesh.triangles.size(), piece));
+  }
+}
+
+void storeHulls(const std::vector<silhouette::LocalHull>& found, const silhouette::Piece& piece,
+                const MeshOutput& output, vtkPolyData* hulls)
 {
   silhouette::Mesh all;
   vtkNew<vtkIntArray> ids;
   ids->SetName("HullId");
-  for (std::size_t hull = 0; hull < found.size(); ++hull)
+  const silhouette::PieceRange range = silhouette::rangeOfPiece(found.size(), piece);
+  for (std::size_t hull = range.first; hull < range.last; ++hull)
   {
     const auto offset = static_cast<std::int32_t>(all.points.size());
     const silhouette::Mesh& mesh = found[hull].mesh;
@@ -182,11 +194,19 @@ vtkTypeBool vtkLocalHullSurfacer::ProcessRequest(vtkInformation* request, vtkInf
   return this->Superclass::ProcessRequest(request, inputs, outputs);
 }
 
+int vtkLocalHullSurfacer::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs,
+                                              vtkInformationVector*)
+{
+  requestWhole(inputs, 3);
+  return 1;
+}
+
 int vtkLocalHullSurfacer::RequestData(vtkInformation* request, vtkInformationVector** inputs,
                                       vtkInformationVector* outputs)
 {
   vtkHyperTreeGrid* grid = vtkHyperTreeGrid::GetData(inputs[1]);
   const int port = requestedPort(request);
+  const silhouette::Piece piece = requestedPiece(request, outputs);
 
   const auto makeWhole = [&](vtkSilhouetteExecution& execution)
   {
@@ -204,14 +224,16 @@ int vtkLocalHullSurfacer::RequestData(vtkInformation* request, vtkInformationVec
     if (port != 1)
     {
       silhouette::Phase surfacing(execution, 0.1, port < 0 ? 0.5 : 1.0);
-      storeSurface(silhouette::localHullSurface(in.surface, in.octree, in.views.get(), options, surfacing),
-                   output, vtkPolyData::GetData(outputs, 0));
+      silhouette::LocalHullSurface found =
+          silhouette::localHullSurface(in.surface, in.octree, in.views.get(), options, surfacing);
+      takePiece(found.mesh, piece);
+      storeSurface(found, output, vtkPolyData::GetData(outputs, 0));
     }
     if (port != 0)
     {
       silhouette::Phase classifying(execution, port < 0 ? 0.5 : 0.1, 1.0);
       storeHulls(silhouette::classifyLocalHulls(in.surface, in.octree, in.views.get(), options, classifying),
-                 output, vtkPolyData::GetData(outputs, 1));
+                 piece, output, vtkPolyData::GetData(outputs, 1));
     }
     execution.progress(1.0);
   };

@@ -42,6 +42,10 @@
  *
  * Cost: proportional to the octants of the last generation; memory: about 200 bytes for each.
  *
+ * Pieces: covering, joints and corrections are decided over the whole, so a piece asks for the whole of its
+ * inputs, and gives an even share of the surface's triangles, in order, and of the hulls; the counts are the
+ * whole's. The shares add up to the whole. Memory and time are those of the whole on every rank.
+ *
  * Limits: an empty octree gives an empty surface without a message. Errors: octree and views that do not
  * belong together; a surface with cells other than triangles; a parameter out of range; single precision too
  * coarse for the depth.
@@ -380,6 +384,8 @@ protected:
   ~vtkLocalHullSurfacer() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
+                          vtkInformationVector* outputs) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputs,
                   vtkInformationVector* outputs) override;
 

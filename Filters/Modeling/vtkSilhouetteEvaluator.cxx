@@ -5,6 +5,7 @@
 #include "FieldValues.h"
 #include "MeshConversion.h"
 #include "OctreeConversion.h"
+#include "PieceRequests.h"
 #include "SurvivorIslands.h"
 #include "ViewConversion.h"
 #include "vtkSilhouetteExecution.h"
@@ -53,13 +54,24 @@ int vtkSilhouetteEvaluator::FillInputPortInformation(int port, vtkInformation* i
   return 1;
 }
 
-int vtkSilhouetteEvaluator::RequestData(vtkInformation*, vtkInformationVector** inputs,
+int vtkSilhouetteEvaluator::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs,
+                                                vtkInformationVector*)
+{
+  requestWhole(inputs, 4);
+  return 1;
+}
+
+int vtkSilhouetteEvaluator::RequestData(vtkInformation* request, vtkInformationVector** inputs,
                                         vtkInformationVector* outputs)
 {
   vtkPartitionedDataSetCollection* collection = vtkPartitionedDataSetCollection::GetData(inputs[1]);
   vtkPolyData* truthData = vtkPolyData::GetData(inputs[2]);
   vtkHyperTreeGrid* grid = vtkHyperTreeGrid::GetData(inputs[3]);
   vtkTable* table = vtkTable::GetData(outputs);
+  if (requestedPiece(request, outputs).number > 0)
+  {
+    return 1;
+  }
 
   const auto evaluate = [&](vtkSilhouetteExecution& execution)
   {

@@ -35,6 +35,8 @@
  * Cost: self-intersections and distances take most, some seconds a million triangles. Memory: about 200 bytes
  * a triangle.
  *
+ * Pieces: the first piece judges the whole of its inputs; the table of any other is empty.
+ *
  * Limits: points are one by index alone: merge those of formats without shared points first
  * (vtkCleanPolyData). Errors (message, empty output): a surface or a truth without triangles, or with other
  * cells; what a view lacks; an incomplete octree. AbortExecute is honoured: the output is then empty, without
@@ -98,6 +100,8 @@ protected:
   ~vtkSilhouetteEvaluator() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
+                          vtkInformationVector* outputs) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputs,
                   vtkInformationVector* outputs) override;
 

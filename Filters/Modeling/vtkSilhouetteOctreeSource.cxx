@@ -6,6 +6,7 @@
 #include "CarvingSetup.h"
 #include "FieldValues.h"
 #include "OctreeConversion.h"
+#include "PieceRequests.h"
 #include "PreparedViewsSharing.h"
 #include "ViewConversion.h"
 #include "vtkSilhouetteExecution.h"
@@ -17,6 +18,7 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 
@@ -35,14 +37,57 @@ public:
     return all;
   }
 
-  /** The same, made ready; what travels with the input is taken where it is all there is. */
+  /**
+   * The same, made ready; what travels with the input is taken where it is all there is, and what was made
+   * for another piece where nothing has changed since.
+   */
   SharedViews prepare(vtkPartitionedDataSetCollection* input, const silhouette::ViewOptions& options,
-                      silhouette::Execution& execution) const
+                      silhouette::Execution& execution)
   {
-    return this->Added.empty() ? preparedViews(input, options, execution)
-                               : std::make_shared<const silhouette::PreparedViews>(
-                                     silhouetteViews(this->views(input)), options, execution);
+    const std::vector<ImageView> all = this->views(input);
+    if (!this->isPrepared(all, options))
+    {
+      this->Last.views.reset();
+      this->Last.views = this->Added.empty() ? preparedViews(input, options, execution)
+                                             : std::make_shared<const silhouette::PreparedViews>(
+                                                   silhouetteViews(all), options, execution);
+      this->Last.given = all;
+      this->Last.times.clear();
+      for (const ImageView& view : all)
+      {
+        this->Last.times.push_back(view.image->GetMTime());
+      }
+    }
+    return this->Last.views;
   }
+
+private:
+  bool isPrepared(const std::vector<ImageView>& all, const silhouette::ViewOptions& options) const
+  {
+    if (!this->Last.views || this->Last.views->options().outside != options.outside ||
+        this->Last.given.size() != all.size())
+    {
+      return false;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      const ImageView& before = this->Last.given[i];
+      if (before.image != all[i].image || before.projection != all[i].projection ||
+          before.name != all[i].name || this->Last.times[i] != all[i].image->GetMTime())
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /** The views prepared last, and what they were prepared from. */
+  struct
+  {
+    SharedViews views;
+    std::vector<ImageView> given;
+    std::vector<vtkMTimeType> times;
+  } Last;
 };
 
 namespace
@@ -157,6 +202,19 @@ int vtkSilhouetteOctreeSource::FillOutputPortInformation(int port, vtkInformatio
 vtkTypeBool vtkSilhouetteOctreeSource::ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
                                                       vtkInformationVector* outputs)
 {
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
+  {
+    for (int port = 0; port < 2; ++port)
+    {
+      outputs->GetInformationObject(port)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+    }
+    return 1;
+  }
+  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
+  {
+    requestWhole(inputs, 1); // every piece needs every view
+    return 1;
+  }
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     return this->RequestData(request, inputs, outputs);
@@ -164,7 +222,7 @@ vtkTypeBool vtkSilhouetteOctreeSource::ProcessRequest(vtkInformation* request, v
   return this->Superclass::ProcessRequest(request, inputs, outputs);
 }
 
-int vtkSilhouetteOctreeSource::RequestData(vtkInformation*, vtkInformationVector** inputs,
+int vtkSilhouetteOctreeSource::RequestData(vtkInformation* request, vtkInformationVector** inputs,
                                            vtkInformationVector* outputs)
 {
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputs[0]);
@@ -185,6 +243,7 @@ int vtkSilhouetteOctreeSource::RequestData(vtkInformation*, vtkInformationVector
     settings.automaticBounds = this->AutomaticBounds;
     std::copy_n(this->Bounds, 6, settings.bounds.begin());
     settings.backgroundVotes = this->BackgroundVotes;
+    settings.piece = requestedPiece(request, outputs);
     const auto warn = [this](const std::string& text)
     { vtkWarningMacro(<< text); };
     const CarvedViews carved = carveViews(views, settings, this->AutomaticTolerance, warn, carving);
@@ -196,6 +255,8 @@ int vtkSilhouetteOctreeSource::RequestData(vtkInformation*, vtkInformationVector
     }
 
     storeOctree(carved.octree, grid);
+    setField(grid, "Piece", settings.piece.number);
+    setField(grid, "NumberOfPieces", settings.piece.count);
     storeTolerance(carved, grid);
     storeUsed(carved, this->Internals->views(input), viewsOut);
     execution.progress(1.0);

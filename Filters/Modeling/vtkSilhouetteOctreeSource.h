@@ -19,6 +19,7 @@
  * | | | field `ViewsFingerprint`, `OctantsTested`, `ViewTests` | 64-bit unsigned, 1 | names the views; counts of the work |
  * | | | field `InsideOctants`, `IntersectionOctants` | 64-bit unsigned, 1 | inside octants of all generations, intersection octants of the last |
  * | | | field `CarvedByView` | double, one a view | share of the root cube that the view carved |
+ * | | | field `Piece`, `NumberOfPieces` | int, 1 | the piece of the octree that this is; the counts and shares above are the piece's, and add up |
  * | | | field `Dilation` | int, 1 | pixels by which the silhouettes were dilated; 0 without AutomaticTolerance |
  * | | | field `UncoveredShare`, `StrictUncoveredShare` | double, 1 | with AutomaticTolerance: share of the silhouettes' pixels, mean over the views, that no octant covers, of this octree and of one with BackgroundVotes and without dilation |
  * | output 1 | vtkPartitionedDataSetCollection | as the input | | the views used, prepared: filters further down do no work on them twice; dilated ones where `Dilation` is above 0 |
@@ -45,7 +46,12 @@
  * AbortExecute is honoured: the outputs are then empty, without an error. VTK does not run an aborted or
  * failed filter again by itself: call Modified() to ask for it.
  *
- * Limits: serial over pieces. XML files keep the cell arrays but not the field data, and need
+ * Pieces: asked for piece p of n (vtkAlgorithm::UpdatePiece(), or ParaView's engine on each rank), the source
+ * carves the trees of that piece alone, from all views. Every piece finds its trees by a coarse carve of its
+ * own, without asking the others. With AutomaticTolerance each piece carves the whole first. That nothing
+ * survives is an error where the coarse carve shows it; a piece without survivors is none.
+ *
+ * Limits: XML files keep the cell arrays but not the field data, and need
  * SetDataModeToBinary(); an octree read from one cannot go through the surface filters.
  *
  * See D. Shin and T. Tjahjadi, "Local hull-based surface construction of volumetric data from silhouettes",

@@ -29,6 +29,10 @@
  * Cost: proportional to the octants times the views. Memory: about 100 bytes an octant of the last
  * generation.
  *
+ * Pieces: of a piece of the octree it gives the surface of that piece, without ghost cells, since a corner's
+ * votes depend on its position alone. The pieces' surfaces add up to the whole, triangle for triangle, and
+ * point for point after merging coincident points; so do the counts.
+ *
  * Limits: thin parts that hold no corner vanish (they are counted in `LostNoCorner`); vtkLocalHullSurfacer
  * keeps them. An empty octree gives an empty surface without a message. Errors: octree and views that do not
  * belong together; a share outside (0, 1]; an octree of other background votes than mode and share need;

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Piece requests: pieces of a pipeline, one after another, add up to the whole, and what comes before the octree runs
+ * once for all of them.
+ */
+#include "ModelingTesting.h"
+#include "vtkLocalHullSurfacer.h"
+#include "vtkSilhouetteEvaluator.h"
+#include "vtkSilhouetteExtractor.h"
+#include "vtkSilhouetteOctreeSource.h"
+#include "vtkVotingMarchingCubes.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkHyperTreeGrid.h"
+#include "vtkIdList.h"
+#include "vtkIntArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
+
+#include <map>
+#include <set>
+
+using namespace silhouette::testing;
+
+namespace
+{
+
+struct Pipeline
+{
+  vtkNew<vtkSilhouetteExtractor> extractor;
+  vtkNew<vtkSilhouetteOctreeSource> octree;
+  vtkNew<vtkVotingMarchingCubes> cubes;
+  vtkNew<vtkLocalHullSurfacer> hulls;
+  vtkNew<vtkSilhouetteEvaluator> evaluator;
+
+  Pipeline()
+  {
+    this->extractor->SetInputDataObject(ringViews());
+    this->extractor->SetUseThreshold(true);
+    this->extractor->SetThreshold(0.5);
+    this->octree->SetInputConnection(this->extractor->GetOutputPort());
+    this->octree->SetDepth(6);
+    this->cubes->SetInputConnection(0, this->octree->GetOutputPort(0));
+    this->cubes->SetViewsConnection(this->octree->GetOutputPort(1));
+    this->hulls->SetInputConnection(0, this->cubes->GetOutputPort());
+    this->hulls->SetOctreeConnection(this->octree->GetOutputPort(0));
+    this->hulls->SetViewsConnection(this->octree->GetOutputPort(1));
+    this->evaluator->SetInputConnection(0, this->hulls->GetOutputPort());
+    this->evaluator->SetViewsConnection(this->octree->GetOutputPort(1));
+    this->evaluator->SetOctreeConnection(this->octree->GetOutputPort(0));
+  }
+};
+
+using Point = std::array<double, 3>;
+using Corners = std::array<Point, 3>;
+
+/** The triangles by their corners' coordinates, in order: what is left of a surface when coincident points are one. */
+std::vector<Corners> triangles(vtkPolyData* surface)
+{
+  std::vector<Corners> all;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
+  {
+    surface->GetCellPoints(cell, ids);
+    Corners corners;
+    for (int n = 0; n < 3; ++n)
+    {
+      surface->GetPoint(ids->GetId(n), corners[std::size_t(n)].data());
+    }
+    all.push_back(corners);
+  }
+  return all;
+}
+
+/** The surface's points with their votes. */
+std::map<Point, std::array<double, 2>> votes(vtkPolyData* surface)
+{
+  std::map<Point, std::array<double, 2>> all;
+  vtkDataArray* array = surface->GetPointData()->GetArray("InsideVotes");
+  for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
+  {
+    Point at;
+    surface->GetPoint(p, at.data());
+    all[at] = {array->GetComponent(p, 0), array->GetComponent(p, 1)};
+  }
+  return all;
+}
+
+int countRuns(vtkAlgorithm* filter, vtkCallbackCommand* command, int& count)
+{
+  command->SetClientData(&count);
+  command->SetCallback([](vtkObject*, unsigned long, void* runs, void*) { ++*static_cast<int*>(runs); });
+  return int(filter->AddObserver(vtkCommand::StartEvent, command));
+}
+
+} // namespace
+
+TEST(VtkPieces, OfTheOctreeAndTheVotingSurfaceAddUp)
+{
+  Pipeline whole;
+  whole.cubes->Update();
+  const auto expected = triangles(whole.cubes->GetOutput());
+  const auto expectedVotes = votes(whole.cubes->GetOutput());
+  ASSERT_GT(expected.size(), 1000u);
+  for (const int count : {1, 2, 3, 8})
+  {
+    Pipeline parts;
+    int runs = 0;
+    vtkNew<vtkCallbackCommand> command;
+    countRuns(parts.extractor, command, runs);
+    const Listener octreeListener(parts.octree), cubesListener(parts.cubes);
+    std::vector<Corners> found;
+    std::map<Point, std::array<double, 2>> foundVotes;
+    double tested = 0.0, intersections = 0.0, lost = 0.0, carved = 0.0;
+    int filled = 0;
+    for (int piece = 0; piece < count; ++piece)
+    {
+      parts.cubes->UpdatePiece(piece, count, 0);
+      vtkPolyData* surface = parts.cubes->GetOutput();
+      const auto some = triangles(surface);
+      found.insert(found.end(), some.begin(), some.end());
+      vtkHyperTreeGrid* octree = parts.octree->GetOutput();
+      EXPECT_EQ(field(octree, "Piece"), piece);
+      EXPECT_EQ(field(octree, "NumberOfPieces"), count);
+      tested += field(octree, "OctantsTested");
+      carved += octree->GetFieldData()->GetArray("CarvedByView")->GetTuple1(3);
+      if (surface->GetNumberOfPoints() > 0)
+      {
+        const auto someVotes = votes(surface);
+        foundVotes.insert(someVotes.begin(), someVotes.end());
+        intersections += field(surface, "IntersectionOctants");
+        lost += field(surface, "LostNoCorner");
+        ++filled;
+      }
+    }
+    EXPECT_TRUE(octreeListener.silent() && cubesListener.silent()) << count;
+    EXPECT_EQ(filled, count) << "the work is divided";
+    EXPECT_EQ(found, expected) << count << " pieces";
+    EXPECT_EQ(foundVotes, expectedVotes);
+    EXPECT_EQ(intersections, field(whole.cubes->GetOutput(), "IntersectionOctants"));
+    EXPECT_EQ(lost, field(whole.cubes->GetOutput(), "LostNoCorner"));
+    vtkHyperTreeGrid* octree = whole.octree->GetOutput();
+    EXPECT_EQ(tested, field(octree, "OctantsTested"));
+    EXPECT_NEAR(carved, octree->GetFieldData()->GetArray("CarvedByView")->GetTuple1(3), 1e-12);
+    EXPECT_EQ(runs, 1) << "the silhouettes are found once for all pieces";
+  }
+}
+
+TEST(VtkPieces, MoreThanThereAreTreesAddUpToo)
+{
+  Pipeline whole;
+  whole.octree->SetDepth(2);
+  whole.cubes->Update();
+  const auto expected = triangles(whole.cubes->GetOutput());
+  ASSERT_GE(expected.size(), 8u);
+  Pipeline parts;
+  parts.octree->SetDepth(2);
+  std::vector<Corners> found;
+  double tested = 0.0;
+  for (int piece = 0; piece < 12; ++piece)
+  {
+    parts.cubes->UpdatePiece(piece, 12, 0);
+    const auto some = triangles(parts.cubes->GetOutput());
+    found.insert(found.end(), some.begin(), some.end());
+    tested += field(parts.octree->GetOutput(), "OctantsTested");
+  }
+  EXPECT_EQ(found, expected);
+  EXPECT_EQ(tested, field(whole.octree->GetOutput(), "OctantsTested"));
+}
+
+TEST(VtkPieces, OfTheLocalHullSurfaceAddUp)
+{
+  Pipeline whole;
+  whole.hulls->Update();
+  whole.hulls->Update(1);
+  const auto expected = triangles(whole.hulls->GetOutput());
+  const auto expectedHulls = triangles(vtkPolyData::SafeDownCast(whole.hulls->GetOutputDataObject(1)));
+  ASSERT_GT(expected.size(), 1000u);
+  ASSERT_GT(expectedHulls.size(), 10u);
+  for (const int count : {2, 3})
+  {
+    Pipeline parts;
+    std::vector<Corners> found, foundHulls;
+    std::set<int> ids;
+    for (int piece = 0; piece < count; ++piece)
+    {
+      parts.hulls->UpdatePiece(piece, count, 0);
+      const auto some = triangles(parts.hulls->GetOutput());
+      found.insert(found.end(), some.begin(), some.end());
+      EXPECT_LT(some.size(), expected.size()) << "a piece is not the whole";
+    }
+    EXPECT_EQ(found, expected) << count << " pieces";
+    for (int piece = 0; piece < count; ++piece)
+    {
+      vtkNew<vtkInformationVector> requests;
+      requests->SetNumberOfInformationObjects(2);
+      vtkInformation* request = requests->GetInformationObject(1);
+      request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
+      request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), count);
+      request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+      parts.hulls->Update(1, requests);
+      auto* hulls = vtkPolyData::SafeDownCast(parts.hulls->GetOutputDataObject(1));
+      const auto some = triangles(hulls);
+      foundHulls.insert(foundHulls.end(), some.begin(), some.end());
+    }
+    EXPECT_EQ(foundHulls, expectedHulls) << count << " pieces";
+  }
+}
+
+TEST(VtkPieces, OfTheEvaluationTheFirstHasAll)
+{
+  Pipeline whole, parts;
+  whole.evaluator->Update();
+  ASSERT_GT(whole.evaluator->GetOutput()->GetNumberOfRows(), 0);
+  parts.evaluator->UpdatePiece(0, 2, 0);
+  EXPECT_EQ(parts.evaluator->GetOutput()->GetNumberOfRows(), whole.evaluator->GetOutput()->GetNumberOfRows());
+  for (const char* name : {"Triangles", "LostSurface", "MeanIoU"})
+  {
+    EXPECT_EQ(field(parts.evaluator->GetOutput(), name), field(whole.evaluator->GetOutput(), name)) << name;
+  }
+  parts.evaluator->UpdatePiece(1, 2, 0);
+  EXPECT_EQ(parts.evaluator->GetOutput()->GetNumberOfRows(), 0);
+}
+
+TEST(VtkPieces, WithAutomaticToleranceAddUpToo)
+{
+  Pipeline whole;
+  whole.octree->AutomaticToleranceOn();
+  whole.octree->Update();
+  const double octants = field(whole.octree->GetOutput(), "IntersectionOctants");
+  double sum = 0.0;
+  Pipeline parts;
+  parts.octree->AutomaticToleranceOn();
+  for (int piece = 0; piece < 3; ++piece)
+  {
+    parts.octree->UpdatePiece(piece, 3, 0);
+    sum += field(parts.octree->GetOutput(), "IntersectionOctants");
+    EXPECT_LT(field(parts.octree->GetOutput(), "IntersectionOctants"), octants);
+    EXPECT_EQ(field(parts.octree->GetOutput(), "UncoveredShare"), field(whole.octree->GetOutput(), "UncoveredShare"));
+  }
+  EXPECT_EQ(sum, octants);
+}
+
+TEST(VtkPieces, OfNothingAreAnErrorInEach)
+{
+  for (int piece = 0; piece < 2; ++piece)
+  {
+    Pipeline parts;
+    vtkNew<vtkPartitionedDataSetCollection> views;
+    auto ring = ringViews();
+    for (unsigned int i = 0; i < ring->GetNumberOfPartitionedDataSets(); ++i)
+    {
+      auto* image = vtkImageData::SafeDownCast(ring->GetPartitionAsDataObject(i, 0));
+      vtkNew<vtkImageData> shifted;
+      shifted->DeepCopy(image);
+      Matrix p;
+      image->GetFieldData()->GetArray("Projection")->GetTuple(0, p.data());
+      p[3] += i % 2 ? 10000.0 : 0.0;
+      setProjection(shifted, p);
+      appendView(views, shifted, "view" + std::to_string(i));
+    }
+    parts.octree->SetInputData(views);
+    parts.octree->AutomaticBoundsOff();
+    const Listener listener(parts.octree);
+    parts.octree->UpdatePiece(piece, 2, 0);
+    ASSERT_EQ(listener.Errors.size(), 1u);
+    EXPECT_NE(listener.Errors[0].find("nothing survives"), std::string::npos) << listener.Errors[0];
+    EXPECT_EQ(elements(parts.octree->GetOutput()), 0);
+  }
+}
