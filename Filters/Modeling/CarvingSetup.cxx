@@ -153,6 +153,13 @@ bool hasInsideBorderCorner(const LatticePoint& cell, const Octree& octree, const
   return false;
 }
 
+CarveStatistics noStatistics(const LatticeViews& views)
+{
+  CarveStatistics statistics;
+  statistics.carvedByView.assign(std::size_t(views.size()), 0.0);
+  return statistics;
+}
+
 /** The trees of a piece. */
 Octree carvePiece(const LatticeViews& views, int backgroundVotes, const Piece& piece, Execution& execution)
 {
@@ -171,8 +178,7 @@ Octree carvePiece(const LatticeViews& views, int backgroundVotes, const Piece& p
   }
   options.trees = {0}; // more pieces than work: an octree with everything but octants
   Octree empty = selectTrees(carve(views, options, carving), {});
-  empty.statistics = CarveStatistics();
-  empty.statistics.carvedByView.assign(std::size_t(views.size()), 0.0);
+  empty.statistics = noStatistics(views);
   return empty;
 }
 
@@ -295,6 +301,10 @@ CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings
     const LatticeViews latticeViews(*carved.views, carved.octree.lattice);
     carved.octree = selectTrees(
         carved.octree, treesOfPiece(latticeViews, carved.octree.backgroundVotes, settings.piece, execution));
+    if (settings.piece.number > 0)
+    {
+      carved.octree.statistics = noStatistics(latticeViews); // the whole's count once
+    }
   }
   return carved;
 }

@@ -3,7 +3,7 @@
 import unittest
 
 import program
-from program import ProgramTest
+from program import ARGUMENTS, ProgramTest
 
 SIZE = 96
 
@@ -27,6 +27,30 @@ class Surfaces(ProgramTest):
         self.assertAlmostEqual(found["vote_share"], 10 / 12)
         self.bad(program.PROCESSING, ["background votes"], "reconstruct", self.capture, "-o", self.folder / "x.ply",
                  "--depth", 4, "--surface", "voting", "--vote-share", 0.75, "--background-votes", 1)
+
+    def test_pieces_make_the_same_mesh(self):
+        for kind in ("voting", "marching-cubes"):
+            whole = self.reconstruct("--surface", kind, depth=6, mesh="whole.ply")
+            parts = self.reconstruct("--surface", kind, "--pieces", 5, depth=6, mesh="parts.ply")
+            self.assert_sound(parts)
+            self.assertIsNone(parts.pop("lost_surface"))
+            self.assertIsInstance(whole.pop("lost_surface"), int)
+            for changing in ("mesh", "seconds", "peak_memory_mib"):
+                whole.pop(changing), parts.pop(changing)
+            for key, value in whole.items():
+                if isinstance(value, float):
+                    self.assertAlmostEqual(parts[key], value, places=9, msg=key)
+                elif key != "carved_by_view":
+                    self.assertEqual(parts[key], value, key)
+            for view, share in whole["carved_by_view"].items():
+                self.assertAlmostEqual(parts["carved_by_view"][view], share, places=12)
+            judged = self.evaluate(self.folder / "parts.ply", "--truth", self.folder / "whole.ply")
+            self.assertLess(judged["mesh_to_truth_maximum"], 1e-12)
+        self.bad(ARGUMENTS, ["--pieces", "whole"], "reconstruct", self.capture, "-o", self.folder / "no.ply",
+                 "--pieces", 2)
+        self.bad(ARGUMENTS, ["--pieces", "--octree"], "reconstruct", self.capture, "-o", self.folder / "no.ply",
+                 "--surface", "voting", "--pieces", 2, "--octree", self.folder / "no.htg")
+        self.assertFalse((self.folder / "no.ply").exists())
 
     def test_faithful_votes_open_the_surface(self):
         found = self.reconstruct("--surface", "voting", "--vote-share", 0.8, "--votes", "faithful")

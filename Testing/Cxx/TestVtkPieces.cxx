@@ -231,17 +231,19 @@ TEST(VtkPieces, WithAutomaticToleranceAddUpToo)
   whole.octree->AutomaticToleranceOn();
   whole.octree->Update();
   const double octants = field(whole.octree->GetOutput(), "IntersectionOctants");
-  double sum = 0.0;
+  double sum = 0.0, tested = 0.0;
   Pipeline parts;
   parts.octree->AutomaticToleranceOn();
   for (int piece = 0; piece < 3; ++piece)
   {
     parts.octree->UpdatePiece(piece, 3, 0);
     sum += field(parts.octree->GetOutput(), "IntersectionOctants");
+    tested += field(parts.octree->GetOutput(), "OctantsTested");
     EXPECT_LT(field(parts.octree->GetOutput(), "IntersectionOctants"), octants);
     EXPECT_EQ(field(parts.octree->GetOutput(), "UncoveredShare"), field(whole.octree->GetOutput(), "UncoveredShare"));
   }
   EXPECT_EQ(sum, octants);
+  EXPECT_EQ(tested, field(whole.octree->GetOutput(), "OctantsTested"));
 }
 
 TEST(VtkPieces, OfNothingAreAnErrorInEach)

@@ -193,6 +193,15 @@ void Reconstruct::addRest()
     ->type_name("MESH")
     ->group(group);
   this->App
+    ->add_option("--pieces", this->Options.pieces, "Carve and contour in so many pieces, one after another: only one piece's "
+                                                   "octree is held in memory (--carving tolerant, which looks at the whole, "
+                                                   "holds it all); the mesh is the same. With --surface voting or "
+                                                   "marching-cubes; lost_surface is then not measured")
+    ->type_name("N")
+    ->check(inRange(1, 4096, true))
+    ->capture_default_str()
+    ->group(group);
+  this->App
     ->add_option("--threads", this->Options.threads, "Threads to use (default: 0, all processors); the result is the "
                                                      "same for any number")
     ->type_name("N")
@@ -225,6 +234,12 @@ void Reconstruct::finish()
   {
     throw CLI::ValidationError("--surface", "marching-cubes needs all views; with a vote share or background votes "
                                             "it is --surface voting");
+  }
+  if (options.pieces > 1 && (options.surface == "local-hull" || !options.octree.empty()))
+  {
+    throw CLI::ValidationError("--pieces", options.surface == "local-hull"
+        ? "local hulls are decided over the whole; pieces need --surface voting or marching-cubes"
+        : "--octree writes the whole octree, which pieces never hold");
   }
   std::set<std::string> files;
   for (const std::string& file : { options.mesh, options.metrics, options.image, options.octree })

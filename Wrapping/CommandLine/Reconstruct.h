@@ -42,6 +42,7 @@ struct ReconstructOptions
   std::string metrics;
   std::string image;
   std::string octree;
+  int pieces = 1;
   int threads = 0;
   bool quiet = false;
 };

@@ -97,7 +97,10 @@ void Reconstruction::connect()
   this->Hulls->SetOctreeConnection(this->Octree->GetOutputPort(0));
   this->Hulls->SetViewsConnection(this->Octree->GetOutputPort(1));
   this->Evaluator->SetViewsConnection(this->Extractor->GetOutputPort());
-  this->Evaluator->SetOctreeConnection(this->Octree->GetOutputPort(0));
+  if (this->Options.pieces == 1)
+  {
+    this->Evaluator->SetOctreeConnection(this->Octree->GetOutputPort(0));
+  }
 
   // The promises are kept for the coordinates that the file will hold.
   const int precision =
@@ -192,7 +195,16 @@ void Reconstruction::carve()
   }
   this->Octree->SetOutsidePolicy(indexOf(this->Options.outside, { "border", "unknown", "background" }));
   this->Octree->SetAutomaticTolerance(this->carvesTolerantly());
+  if (this->Options.pieces > 1)
+  {
+    return; // with the surface, piece after piece
+  }
   this->Run.run(this->Octree, "carve", "carving the octree");
+  this->takeTolerance();
+}
+
+void Reconstruction::takeTolerance()
+{
   if (this->carvesTolerantly())
   {
     vtkHyperTreeGrid* octree = this->Octree->GetOutput();
@@ -201,10 +213,41 @@ void Reconstruction::carve()
   }
 }
 
+void Reconstruction::makePieces()
+{
+  const int pieces = this->Options.pieces;
+  for (int piece = 0; piece < pieces; ++piece)
+  {
+    const std::string which = ", piece " + std::to_string(piece + 1) + " of " + std::to_string(pieces);
+    this->Run.run(this->Octree, "carve", "carving the octree" + which, ProcessingFailed, piece, pieces);
+    this->takeTolerance();
+    this->Run.run(this->Cubes, "marching_cubes", "marching cubes" + which, ProcessingFailed, piece, pieces);
+    this->Pieces.add(this->Octree->GetOutput(), this->Cubes->GetOutput());
+  }
+  this->Run.run("marching_cubes", "joining the pieces", [this] { this->Surface = this->Pieces.join(); });
+}
+
+vtkHyperTreeGrid* Reconstruction::octreeFields()
+{
+  return this->Options.pieces > 1 ? this->Pieces.octree() : this->Octree->GetOutput();
+}
+
+vtkPolyData* Reconstruction::cubes()
+{
+  return this->Options.pieces > 1 ? this->Surface.GetPointer() : this->Cubes->GetOutput();
+}
+
 void Reconstruction::makeSurface()
 {
-  this->Run.run(this->Cubes, "marching_cubes", "marching cubes");
-  this->Surface = this->Cubes->GetOutput();
+  if (this->Options.pieces > 1)
+  {
+    this->makePieces();
+  }
+  else
+  {
+    this->Run.run(this->Cubes, "marching_cubes", "marching cubes");
+    this->Surface = this->Cubes->GetOutput();
+  }
   if (this->Options.surface == "local-hull")
   {
     this->Run.run(this->Hulls, "local_hulls", "local hulls");
@@ -262,14 +305,18 @@ void Reconstruction::evaluate(vtkPolyData* stored)
   this->Run.run(this->Evaluator, "evaluate", "judging the mesh");
   const std::uint64_t lostNow = fieldCount(this->Evaluator->GetOutput(), "LostSurface");
   this->Found["lost_surface"] = dropped ? lost : lostNow;
+  if (this->Options.pieces > 1)
+  {
+    this->Found["lost_surface"] = nullptr; // judged against the whole octree only
+  }
   this->DroppedOctants = fieldCount(this->Surface, "DroppedOctants") + // islands
     (dropped ? lostNow - std::min(lost, lostNow) : 0);
 }
 
 void Reconstruction::gatherMetrics(vtkPolyData* stored)
 {
-  const std::uint64_t lostSurface = this->Found["lost_surface"].get<std::uint64_t>();
-  vtkPolyData* cubes = this->Cubes->GetOutput();
+  const Metrics lostSurface = this->Found["lost_surface"];
+  vtkPolyData* cubes = this->cubes();
   Metrics metrics;
   metrics["program"] = "vtksilhouette reconstruct";
   metrics["capture"] = this->Options.capture;
@@ -279,7 +326,7 @@ void Reconstruction::gatherMetrics(vtkPolyData* stored)
   metrics["vote_share"] = this->Share;
   metrics["edges"] = this->Options.edges;
   metrics["carving"] = this->carvesTolerantly() ? "tolerant" : "strict";
-  addOctree(metrics, this->Octree->GetOutput(), this->Octree->GetViewsOutput());
+  addOctree(metrics, this->octreeFields(), this->Octree->GetViewsOutput());
   metrics["lost_no_corner"] = fieldCount(cubes, "LostNoCorner");
   metrics["lost_all_corners"] = fieldCount(cubes, "LostAllCorners");
   metrics["lost_surface"] = lostSurface;
@@ -372,11 +419,12 @@ void Reconstruction::summarise() const
   }
   char octree[200];
   std::snprintf(octree, sizeof octree,
-    "\noctree       depth %d, leaf edge %.4g; %llu inside, %llu on the surface; %llu lost by the mesh\n",
-    this->Found["depth"].get<int>(), this->Found["leaf_edge"].get<double>(),
-    this->Found["inside"].get<unsigned long long>(), this->Found["intersection"].get<unsigned long long>(),
-    this->Found["lost_surface"].get<unsigned long long>());
-  text += octree + this->describeCarving() + describeMesh(this->Found) + describeAgreement(this->Found) + describeTruth(this->Found) +
+    "\noctree       depth %d, leaf edge %.4g; %llu inside, %llu on the surface", this->Found["depth"].get<int>(),
+    this->Found["leaf_edge"].get<double>(), this->Found["inside"].get<unsigned long long>(),
+    this->Found["intersection"].get<unsigned long long>());
+  const Metrics& lost = this->Found["lost_surface"];
+  text += octree + (lost.is_null() ? "\n" : "; " + std::to_string(lost.get<std::uint64_t>()) + " lost by the mesh\n");
+  text += this->describeCarving() + describeMesh(this->Found) + describeAgreement(this->Found) + describeTruth(this->Found) +
     describeCost(this->Found);
   std::fputs(text.c_str(), stdout);
 }

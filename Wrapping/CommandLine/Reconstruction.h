@@ -5,11 +5,13 @@
 #pragma once
 
 #include "Metrics.h"
+#include "PieceSurface.h"
 #include "Stages.h"
 
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
+class vtkHyperTreeGrid;
 class vtkLocalHullSurfacer;
 class vtkPolyData;
 class vtkSilhouetteCaptureReader;
@@ -43,10 +45,17 @@ private:
   void carve();
   /** Is the carving's tolerance to be found? */
   bool carvesTolerantly() const;
+  /** The share that the octree's background votes leave, where its tolerance was found. */
+  void takeTolerance();
   void setShare(int views, int backgroundVotes);
   void setLocalHulls();
   std::string describeCarving() const;
   void makeSurface();
+  /** Octree and surface piece after piece. */
+  void makePieces();
+  /** The octree's field data; in pieces those of the whole. */
+  vtkHyperTreeGrid* octreeFields();
+  vtkPolyData* cubes();
   /** The mesh as the staged file has it. */
   vtkSmartPointer<vtkPolyData> store(vtkPolyData* mesh, const StagedFile& file);
   void evaluate(vtkPolyData* stored);
@@ -60,6 +69,7 @@ private:
   Metrics Found;
   double Share = 1.0;
   std::uint64_t DroppedOctants = 0;
+  PieceSurface Pieces;
   vtkSmartPointer<vtkPolyData> Truth;
   vtkSmartPointer<vtkPolyData> Surface; ///< whole
   vtkSmartPointer<vtkPolyData> Kept;    ///< what is left of it with --largest

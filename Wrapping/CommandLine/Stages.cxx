@@ -138,12 +138,13 @@ void routeOutputWindow()
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it repeats what the window is told
 }
 
-void Stages::run(vtkAlgorithm* filter, const std::string& key, const std::string& words, ExitCode code)
+void Stages::run(
+  vtkAlgorithm* filter, const std::string& key, const std::string& words, ExitCode code, int piece, int pieces)
 {
   const auto update = [&]
   {
     const Observation observation(filter, this->Bar);
-    filter->Update();
+    filter->UpdatePiece(piece, pieces, 0);
     checkInterrupt();
     if (!observation.message().empty())
     {

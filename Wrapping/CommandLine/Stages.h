@@ -32,10 +32,11 @@ public:
   }
 
   /**
-   * Update a filter. `key` names the stage in the metrics, `words` on the terminal. Throws ProgramError with
+   * Update a filter, or one piece of several of it. `key` names the stage in the metrics, `words` on the terminal. Throws ProgramError with
    * `code` and the filter's error, or Interrupted.
    */
-  void run(vtkAlgorithm* filter, const std::string& key, const std::string& words, ExitCode code = ProcessingFailed);
+  void run(vtkAlgorithm* filter, const std::string& key, const std::string& words, ExitCode code = ProcessingFailed,
+    int piece = 0, int pieces = 1);
 
   /** Do other work as a stage. Throws what the work throws, or Interrupted. */
   void run(const std::string& key, const std::string& words, const std::function<void()>& work);
