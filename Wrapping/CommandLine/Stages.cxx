@@ -144,7 +144,14 @@ void Stages::run(
   const auto update = [&]
   {
     const Observation observation(filter, this->Bar);
-    filter->UpdatePiece(piece, pieces, 0);
+    if (pieces > 1)
+    {
+      filter->UpdatePiece(piece, pieces, 0);
+    }
+    else
+    {
+      filter->Update(); // writers are asked for no piece
+    }
     checkInterrupt();
     if (!observation.message().empty())
     {
