@@ -11,6 +11,7 @@ import argparse
 import colorsys
 import os
 import struct
+import tempfile
 import zlib
 
 import numpy as np
@@ -18,16 +19,18 @@ import numpy as np
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  text
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkThreshold
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersHyperTree import vtkHyperTreeGridToUnstructuredGrid
+from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkImagingColor import vtkImageQuantizeRGBToIndex
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
 
 from vtksilhouette import (
-    vtkLocalHullSurfacer, vtkSilhouetteOctreeSource, vtkSyntheticCaptureSource, vtkVotingMarchingCubes)
+    vtkLocalHullSurfacer, vtkSilhouetteCaptureReader, vtkSilhouetteExtractor, vtkSilhouetteOctreeSource,
+    vtkSyntheticCaptureSource, vtkVotingMarchingCubes)
 
 WHITE = (1.0, 1.0, 1.0)
 CLAY = (0.93, 0.66, 0.49)  # the jug, as on its photographs
@@ -153,11 +156,13 @@ def light(renderer, right, up, intensity):
 
 
 def picture(surface_actor, width, height, half_height=1.0, centre=(0.0, 0.0, 0.0), turn=-60.0, above=22.0,
-            label=None):
+            label=None, beside=None):
     """A (height, width, 3) array of uint8, row 0 at the top: z upwards, from `turn` and `above`, degrees."""
     renderer = vtkRenderer()
     renderer.SetBackground(WHITE)
     renderer.AddActor(surface_actor)
+    if beside:
+        renderer.AddActor(beside)
     light(renderer, -0.7, 0.9, 0.85)
     light(renderer, 0.9, 0.2, 0.35)
     light(renderer, 0.0, -0.8, 0.20)
@@ -346,7 +351,66 @@ def torn_view(capture):
     return int(np.argmax(lost))
 
 
-FIGURES = {"jug": jug, "octree": octree, "figure-6-3": figure_6_3, "local-hulls": local_hulls, "noise": noise}
+def pipeline():
+    """What each output of the pipeline holds, from a folder of photographs to hulls."""
+    width, height = 300, 310
+    made = Pipeline(vtkSyntheticCaptureSource.JUG, 6, 560)
+    with tempfile.TemporaryDirectory() as folder:
+        write_capture(made.capture, folder)
+        reader = vtkSilhouetteCaptureReader()
+        reader.SetFileName(folder)
+        extractor = vtkSilhouetteExtractor()
+        extractor.SetInputConnection(reader.GetOutputPort())
+        extractor.SetKeyChannelToBlue()
+        made.octree.SetInputConnection(extractor.GetOutputPort())
+        mesh = result(made.hulls)
+    made.hulls.SetSeedBlock(8)
+    hulls = paint(result(made.hulls, 1), "HullId", pastel)
+    made.octree.SetDepth(5)
+    octants = result(made.octree)
+    where = {"half_height": 1.2, "centre": (-0.03, 0.0, -0.12), "turn": -55.0}
+    return np.vstack([
+        np.hstack([captioned(view_image(reader.GetOutput(), 15, 240), width, height, "reader, 0: photographs"),
+                   cameras_picture(reader.GetCamerasOutput(), mesh, width, height, "reader, 1: cameras"),
+                   captioned(view_image(extractor.GetOutput(), 15, 240), width, height, "extractor, 0: silhouettes")]),
+        np.hstack([octants_picture(octants, width, height, label="octree source, 0: octree", **where),
+                   picture(actor(mesh, CLAY), width, height, label="local hull surfacer, 0: mesh", **where),
+                   picture(actor(hulls, flat=True), width, height, label="local hull surfacer, 1: hulls", **where)])])
+
+
+def write_capture(capture, folder):
+    """A synthetic capture's photographs as a capture folder: `images/` and `projections.txt`."""
+    os.mkdir(os.path.join(folder, "images"))
+    views = result(capture, 2)
+    writer = vtkPNGWriter()
+    with open(os.path.join(folder, "projections.txt"), "w", encoding="utf-8") as file:
+        for view in range(views.GetNumberOfPartitionedDataSets()):
+            image = views.GetPartitionedDataSet(view).GetPartition(0)
+            numbers = image.GetFieldData().GetArray("Projection").GetTuple(0)
+            file.write(f"{view:03}.png {' '.join(map(repr, numbers))}\n")
+            writer.SetInputData(image)
+            writer.SetFileName(os.path.join(folder, "images", f"{view:03}.png"))
+            writer.Write()
+
+
+def cameras_picture(cameras, mesh, width, height, label):
+    """The reader's frustums, with the mesh that they look at."""
+    lines = actor(cameras, (0.35, 0.42, 0.52), flat=True)
+    lines.GetProperty().SetLineWidth(0.6 * SAMPLES)
+    lines.GetProperty().LightingOff()
+    return picture(lines, width, height, half_height=5.2, turn=-55.0, label=label, beside=actor(mesh, CLAY))
+
+
+def captioned(pixels, width, height, label):
+    """A picture in the middle of a white one, with a label below it."""
+    empty = picture(actor(vtkPolyData(), WHITE), width, height, label=label)
+    top, left = 20, (width - pixels.shape[1]) // 2
+    empty[top:top + pixels.shape[0], left:left + pixels.shape[1]] = pixels
+    return empty
+
+
+FIGURES = {"jug": jug, "octree": octree, "figure-6-3": figure_6_3, "local-hulls": local_hulls, "noise": noise,
+           "pipeline": pipeline}
 
 
 def main():
