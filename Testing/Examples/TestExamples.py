@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""
+The examples and the commands of Documentation/pipelines.md, run as people run them, and judged: the meshes are those of
+the program, byte for byte, and sound; the pictures show something.
+
+SILHOUETTE_PREFIX is the install tree, or the build tree; PYTHONPATH leads to its package. Both Examples/Cxx and the
+captures are made here, by the document's own commands.
+"""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+import document
+
+PREFIX = pathlib.Path(os.environ["SILHOUETTE_PREFIX"])
+PROGRAM = PREFIX / os.environ["SILHOUETTE_PROGRAM"]
+EXAMPLES = document.TREE / "Examples"
+DINOSAUR = pathlib.Path(os.environ.get("SILHOUETTE_REAL_DATA") or
+                        document.TREE.parent / "shared" / "data") / "vgg-dinosaur"
+KEY = ("--key", "blue:0.08", "--largest-region")  # as the photographs are told from their background
+
+folder = None  # where everything is made
+
+
+def run(*command, **options):
+    return subprocess.run([*map(str, command)], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          universal_newlines=True, timeout=300, **options)
+
+
+def good(*command, **options):
+    """A command that has to succeed: what it printed."""
+    done = run(*command, **options)
+    if done.returncode != 0:
+        raise AssertionError(f"{command} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def python(script, *arguments, drawing=False):
+    """The command line of one of the scripts."""
+    launcher = ("-m", "vtksilhouette.offscreen") if drawing else ()
+    return (sys.executable, *launcher, EXAMPLES / "Python" / script, *arguments)
+
+
+def setUpModule():
+    """Runs every shell block of the document, in its order, in one folder."""
+    global folder
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="examples-"))
+    (folder / "Examples").symlink_to(EXAMPLES)
+    (folder / "bin").mkdir()
+    (folder / "bin" / "python3").symlink_to(sys.executable)
+    (folder / "bin" / "vtksilhouette").symlink_to(PROGRAM)
+    environment = {**os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}", "PREFIX": str(PREFIX)}
+    for block in document.blocks(document.text()):
+        if block["language"] == "sh":
+            good("bash", "-e", "-c", block["code"], env=environment)
+
+
+def tearDownModule():
+    shutil.rmtree(folder)
+
+
+def evaluated(mesh, capture):
+    good(PROGRAM, "evaluate", mesh, "--capture", capture, "--metrics", "evaluation.json")
+    return json.loads((folder / "evaluation.json").read_text())
+
+
+def pixels_of(path):
+    """A picture as a (height, width, 3) array of int."""
+    reader = vtkPNGReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    width, height, _ = reader.GetOutput().GetDimensions()
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(height, width, -1).astype(int)
+
+
+def faults(pixels):
+    """What is wrong with a picture of an object on a white ground; an empty list where nothing is."""
+    drawn = (pixels < 250).any(axis=2)
+    found = []
+    if not 0.05 < drawn.mean() < 0.6:  # the object's bounding sphere fills the picture
+        found.append(f"{100 * drawn.mean():.1f} % of the picture is drawn")
+    if drawn[0].any() or drawn[-1].any() or drawn[:, 0].any() or drawn[:, -1].any():
+        found.append("the object is cut by the picture's border")
+    brightness = pixels[drawn].mean() if drawn.any() else 0.0
+    if brightness < 100:  # the colour is (219, 204, 184), seen by a light at the camera
+        found.append(f"dark: a mean of {brightness:.0f} of 255")
+    if drawn.any() and pixels[drawn].std() < 10:  # a round object is shaded
+        found.append("flat: no shading")
+    return found
+
+
+def triangles_of(path):
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(folder / path))
+    reader.Update()
+    mesh = reader.GetOutput()
+    return vtk_to_numpy(mesh.GetPoints().GetData()), vtk_to_numpy(mesh.GetPolys().GetConnectivityArray())
+
+
+class PictureJudge(unittest.TestCase):
+    """The judge of the pictures finds what is wrong."""
+
+    def test_it(self):
+        good_one = pixels_of(folder / "jug.png")
+        self.assertEqual(faults(good_one), [])
+        drawn = (good_one < 250).any(axis=2)
+        for broken, fault in ((np.full_like(good_one, 255), "0.0 %"), (np.zeros_like(good_one), "dark"),
+                              (np.where(drawn[..., np.newaxis], 200, good_one), "flat"),
+                              (good_one // np.where(drawn, 4, 1)[..., np.newaxis], "dark"),
+                              (good_one[:, good_one.shape[1] // 2:], "cut")):
+            self.assertIn(fault, "; ".join(faults(broken)))
+
+
+class PhotographsToMesh(unittest.TestCase):
+    def test_the_mesh_is_the_programs(self):
+        # Carved strictly or, as by default, tolerantly: clean silhouettes need no tolerance.
+        for carving in ("strict", "tolerant"):
+            good(PROGRAM, "reconstruct", "jug", "-o", "program.ply", "--depth", 6, *KEY, "--carving", carving)
+            for mesh in ("jug.ply", "jug-cxx.ply"):
+                with self.subTest(mesh=mesh, carving=carving):
+                    self.assertEqual((folder / mesh).read_bytes(), (folder / "program.ply").read_bytes())
+
+    def test_the_mesh_is_sound(self):
+        found = evaluated("jug.ply", "jug")
+        self.assertTrue(found["closed"])
+        self.assertTrue(found["sound"])
+        self.assertEqual((found["components"], found["genus"]), (1, 1))  # a jug with one handle
+        self.assertGreater(found["mean_iou"], 0.98)
+
+    def test_the_pictures(self):
+        for picture in ("jug.png", "jug-cxx.png"):
+            with self.subTest(picture):
+                self.assertEqual(faults(pixels_of(folder / picture)), [])
+
+    def test_no_capture(self):
+        for command in (python("photographs_to_mesh.py", "nowhere", "none.ply", "none.png", drawing=True),
+                        ("examples/PhotographsToMesh", "nowhere", "none.ply", "none.png")):
+            with self.subTest(command[0]):
+                done = run(*command)
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertIn("nowhere: there is no such folder or camera file", done.stderr)
+                self.assertFalse((folder / "none.ply").exists() or (folder / "none.png").exists())
+
+    def test_the_dinosaur(self):
+        if not DINOSAUR.exists():
+            self.skipTest(f"no photographs in {DINOSAUR}")
+        good(PROGRAM, "reconstruct", DINOSAUR, "-o", "program.ply", "--depth", 7, *KEY)
+        good(*python("photographs_to_mesh.py", DINOSAUR, "dino.ply", "dino.png", "--depth", 7, drawing=True))
+        good("examples/PhotographsToMesh", DINOSAUR, "dino-cxx.ply", "dino-cxx.png", 7)
+        for mesh, picture in (("dino.ply", "dino.png"), ("dino-cxx.ply", "dino-cxx.png")):
+            with self.subTest(mesh):
+                self.assertEqual((folder / mesh).read_bytes(), (folder / "program.ply").read_bytes())
+                self.assertEqual(faults(pixels_of(folder / picture)), [])
+
+
+class JudgedMesh(unittest.TestCase):
+    def commands(self, capture, mesh, depth, threads=0, seconds=3600):
+        return (python("judged_mesh.py", capture, mesh, "--depth", depth, "--threads", threads, "--seconds", seconds),
+                ("examples/JudgedMesh", capture, mesh, depth, threads, seconds))
+
+    def test_the_mesh_and_its_metrics_are_the_programs(self):
+        good(PROGRAM, "synthesize", "twig", "--shape", "twig", "--size", "160x160", "--views", 12,
+             "--noise-contour", 1)
+        good(PROGRAM, "reconstruct", "twig", "-o", "program.vtp", "--depth", 6, "--metrics", "program.json")
+        metrics = json.loads((folder / "program.json").read_text())
+        self.assertGreater(metrics["background_votes"], 0, "the capture needs tolerance")
+        expected = triangles_of("program.vtp")
+        for command in self.commands("twig", "twig.vtp", 6):
+            with self.subTest(command[0]):
+                printed = good(*command)
+                for made, theirs in zip(triangles_of("twig.vtp"), expected):
+                    np.testing.assert_array_equal(made, theirs)
+                iou, lost = re.search(r"mean IoU ([\d.]+), .* component\(s\), (\d+) octants lost", printed).groups()
+                self.assertAlmostEqual(float(iou), metrics["mean_iou"], delta=1e-4)
+                self.assertEqual(int(lost), 0)
+                self.assertEqual(printed.count("XOR"), 12)
+
+    def test_torn_silhouettes_give_a_sound_mesh(self):
+        self.assertEqual((folder / "torn.vtp").read_bytes(), (folder / "torn-cxx.vtp").read_bytes())
+        self.assertTrue(evaluated("torn.vtp", "torn")["sound"])
+
+    def test_threads_change_nothing(self):
+        for threads in (1, 2, 8):
+            for command in self.commands("torn", "again.vtp", 6, threads):
+                good(*command)
+                self.assertEqual((folder / "again.vtp").read_bytes(), (folder / "torn.vtp").read_bytes())
+
+    def test_time_is_up(self):
+        for command in self.commands("torn", "none.vtp", 8, seconds=0):
+            self.fails(command, "the time was up in vtkSilhouette")
+
+    def test_errors_name_their_cause(self):
+        for capture, depth, words in (("nowhere", 6, "nowhere: there is no such folder or camera file"),
+                                      ("torn", 17, "depth 17 is out of range: 1 to 16 are possible")):
+            for command in self.commands(capture, "none.vtp", depth):
+                self.fails(command, words)
+
+    def fails(self, command, words):
+        done = run(*command)
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn(words, done.stderr)
+        self.assertFalse((folder / "none.vtp").exists())
+
+
+class VoteShareSweep(unittest.TestCase):
+    SHARES = (1.0, 0.9, 0.8)
+
+    @classmethod
+    def setUpClass(cls):
+        cls.printed = good(*python("vote_share_sweep.py", "torn", "shares.png", "--depth", 5, "--shares", *cls.SHARES,
+                                   drawing=True))
+
+    def test_the_surfaces_are_the_programs(self):
+        rows = [line.split() for line in self.printed.splitlines()[1:]]
+        self.assertEqual(len(rows), 2 * len(self.SHARES))
+        for share, cubes, hulls in zip(self.SHARES, rows[0::2], rows[1::2]):
+            for row, kind in ((cubes, "voting"), (hulls, "local-hull")):
+                with self.subTest(share=share, kind=kind):
+                    good(PROGRAM, "reconstruct", "torn", "-o", "share.vtp", "--depth", 5, "--surface", kind,
+                         "--vote-share", share, "--metrics", "share.json")
+                    metrics = json.loads((folder / "share.json").read_text())
+                    votes, _, _, triangles, components, closed, iou, _ = row[1:]
+                    self.assertEqual((int(votes), int(triangles), int(components)),
+                                     (metrics["background_votes"], metrics["triangles"], metrics["components"]))
+                    self.assertEqual(closed, "yes")
+                    self.assertAlmostEqual(float(iou), metrics["mean_iou"], delta=1e-4)
+
+    def test_the_sheet(self):
+        pixels = pixels_of(folder / "shares.png")
+        self.assertEqual(pixels.shape, (600, 300 * len(self.SHARES), 3))
+        panels = [pixels[row:row + 300, column:column + 300] for row in (0, 300)
+                  for column in range(0, pixels.shape[1], 300)]
+        for panel in panels:
+            self.assertEqual(faults(panel), [])
+        for panel in panels[1:]:
+            self.assertGreater(np.abs(panel - panels[0]).max(axis=2).astype(bool).mean(), 0.01, "two panels are alike")
+
+    def test_a_share_out_of_range(self):
+        done = run(*python("vote_share_sweep.py", "torn", "none.png", "--depth", 4, "--shares", 0.0, drawing=True))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("torn: no surface at share 0.0", done.stderr)
+        self.assertFalse((folder / "none.png").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
