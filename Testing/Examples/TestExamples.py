@@ -109,6 +109,39 @@ def triangles_of(path):
     return vtk_to_numpy(mesh.GetPoints().GetData()), vtk_to_numpy(mesh.GetPolys().GetConnectivityArray())
 
 
+class Package(unittest.TestCase):
+    """What is tried is the package in SILHOUETTE_PREFIX, and no other."""
+
+    def test_cmake_found_it(self):
+        cache = (folder / "examples" / "CMakeCache.txt").read_text()
+        self.assertIn(f"vtkSilhouette_DIR:PATH={PREFIX}/", cache)
+
+    def test_python_found_it(self):
+        place = good(sys.executable, "-c", "import vtksilhouette; print(vtksilhouette.__file__)")
+        self.assertTrue(place.startswith(f"{PREFIX}/"), place)
+
+
+class Readme(unittest.TestCase):
+    """README's command and its ten lines of Python, as they stand there."""
+
+    def setUp(self):
+        if not (folder / "my-capture").exists():
+            good(PROGRAM, "synthesize", "my-capture", "--size", "128x128", "--views", 12)
+        self.blocks = document.blocks((document.TREE / "README.md").read_text(encoding="utf-8"))
+
+    def test_python(self):
+        code, = [block["code"] for block in self.blocks if block["language"] == "python"]
+        printed = good(sys.executable, "-c", code)
+        self.assertGreater(int(re.fullmatch(r"(\d+) triangles\n", printed).group(1)), 1000)
+
+    def test_command(self):
+        command, = [block["code"] for block in self.blocks if "my-capture" in block["code"] and
+                    block["language"] == "sh"]
+        good("bash", "-e", "-c", command.replace("--key", "--depth 6 --key"), env=ENVIRONMENT())
+        self.assertEqual(faults(pixels_of(folder / "preview.png"), ground=None), [])
+        self.assertTrue(evaluated("mesh.ply", "my-capture")["sound"])
+
+
 class PictureJudge(unittest.TestCase):
     """The judge of the pictures finds what is wrong."""
 
@@ -192,10 +225,12 @@ class JudgedMesh(unittest.TestCase):
         self.assertTrue(evaluated("torn.vtp", "torn")["sound"])
 
     def test_threads_change_nothing(self):
+        meshes = set()
         for threads in (1, 2, 8):
-            for command in self.commands("torn", "again.vtp", 6, threads):
+            for command in self.commands("torn", "again.vtp", 5, threads):
                 good(*command)
-                self.assertEqual((folder / "again.vtp").read_bytes(), (folder / "torn.vtp").read_bytes())
+                meshes.add((folder / "again.vtp").read_bytes())
+        self.assertEqual(len(meshes), 1)
 
     def test_time_is_up(self):
         for command in self.commands("torn", "none.vtp", 8, seconds=0):

@@ -1,6 +1,7 @@
 # Installs the build tree, moves the install tree elsewhere, and uses it from there: files name no folder of
-# this machine, the program runs, a project of its own configures, builds and runs against it, and Python
-# imports the package. Skipped, with the line "SKIPPED: why", where the build tree is not complete.
+# this machine, the program runs, a project of its own configures, builds and runs against it, Python imports
+# the package, and the examples make what they promise. Skipped, with the line "SKIPPED: why", where the build
+# tree is not complete.
 
 # run(<what> [OUTPUT <variable>] COMMAND <command>...): fails, with all that was printed, unless the command
 # succeeds; OUTPUT gives what it printed.
@@ -90,5 +91,17 @@ if(PYTHON)
   if(found EQUAL -1)
     message(FATAL_ERROR "Python imported another package: ${place}")
   endif()
+endif()
+
+if(PYTHON AND PROGRAM AND NOT OFFSCREEN STREQUAL "none")
+  # Examples/Python and Examples/Cxx, built and run by the document's commands. Real photographs are left to the
+  # build tree's run of this test.
+  run("the examples" COMMAND
+    "${CMAKE_COMMAND}" -E env --unset=LD_PRELOAD
+      "SILHOUETTE_PREFIX=${prefix}" "SILHOUETTE_PROGRAM=${BIN_DIR}/vtksilhouette" SILHOUETTE_REAL_DATA=none
+      "PYTHONPATH=${prefix}/${PYTHON_PATH}" PYTHONDONTWRITEBYTECODE=1
+      "CMAKE_GENERATOR=${GENERATOR}" "CC=${C_COMPILER}" "CXX=${CXX_COMPILER}" "CXXFLAGS=${CXX_FLAGS}"
+      "VTK_DIR=${VTK_DIR}"
+      "${PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/../Examples/TestExamples.py")
 endif()
 file(REMOVE_RECURSE "${WORK_DIR}")
