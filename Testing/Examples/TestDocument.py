@@ -33,6 +33,14 @@ class TestBlocks(unittest.TestCase):
         self.assertEqual(document.untrue_blocks(named + "```python\nwatch.run(reader)\nwatch.run(extractor)\n```"), [])
 
 
+def synthesized(folder):
+    """A small capture of eight views in `folder`: its path."""
+    capture = os.path.join(folder, "jug")
+    program = os.path.join(os.environ["SILHOUETTE_PREFIX"], os.environ["SILHOUETTE_PROGRAM"])
+    subprocess.run([program, "synthesize", capture, "--size", "96x96", "--views", "8", "--quiet"], check=True)
+    return capture
+
+
 def pipeline(capture):
     """The filters by class name, up to date."""
     made = {name: getattr(vtksilhouette, name)() for name in (
@@ -52,7 +60,6 @@ def pipeline(capture):
     evaluator.SetViewsConnection(extractor.GetOutputPort())
     evaluator.SetOctreeConnection(octree.GetOutputPort(0))
     evaluator.Update()
-    hulls.Update(1)
     return made
 
 
@@ -73,12 +80,10 @@ def type_of(array):
 class TestTable(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        capture = os.path.join(cls.folder.name, "jug")
-        program = os.path.join(os.environ["SILHOUETTE_PREFIX"], os.environ["SILHOUETTE_PROGRAM"])
-        subprocess.run([program, "synthesize", capture, "--size", "96x96", "--views", "8", "--quiet"], check=True)
-        cls.filters = pipeline(capture)
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.filters = pipeline(synthesized(folder.name))
+        cls.filters["vtkLocalHullSurfacer"].Update(1)
         cls.rows = document.outputs(document.text())
 
     def test_every_row(self):
@@ -100,6 +105,71 @@ class TestTable(unittest.TestCase):
             for data in (octree, cubes, hulls):
                 self.assertIsNotNone(array_of(data, "field", name), name)
         self.assertIsNotNone(array_of(table, "field", "Survivors"))
+
+
+class TestWhatRuns(unittest.TestCase):
+    """What the document says of changes, released images, hulls on demand, and filters that were stopped."""
+
+    def setUp(self):
+        self.filters = pipeline(self.capture)
+        self.ran = []
+        for name, made in self.filters.items():
+            made.AddObserver("StartEvent", lambda caller, event, name=name: self.ran.append(name))
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.capture = synthesized(folder.name)
+
+    def test_what_was_changed_and_what_is_below(self):
+        names = list(self.filters)
+        self.filters["vtkSilhouetteEvaluator"].Update()
+        self.assertEqual(self.ran, [])
+        self.filters["vtkVotingMarchingCubes"].SetEdgePlacementToMiddle()
+        self.filters["vtkSilhouetteEvaluator"].Update()
+        self.assertEqual(self.ran, names[3:])
+
+    def test_hulls_on_demand(self):
+        hulls = self.filters["vtkLocalHullSurfacer"]
+        self.assertEqual(hulls.GetOutputDataObject(1).GetNumberOfCells(), 0, "nothing has asked for them")
+        surface = hulls.GetOutput().GetPoints()
+        hulls.Update(1)
+        first = hulls.GetOutputDataObject(1).GetNumberOfCells()
+        self.assertGreater(first, 0)
+        self.assertIs(hulls.GetOutput().GetPoints(), surface)
+        hulls.SetSeedBlock(16)
+        hulls.Update()
+        self.assertEqual(hulls.GetOutputDataObject(1).GetNumberOfCells(), first, "those of before")
+        hulls.Update(1)
+        self.assertLess(hulls.GetOutputDataObject(1).GetNumberOfCells(), first, "larger seeds give fewer hulls")
+
+    def test_released_images(self):
+        reader, octree = self.filters["vtkSilhouetteCaptureReader"], self.filters["vtkSilhouetteOctreeSource"]
+        reader.ReleaseDataFlagOn()
+        reader.Modified()
+        octree.Update()
+        self.assertEqual(reader.GetOutput().GetNumberOfPartitionedDataSets(), 0)
+        self.assertEqual(reader.GetCamerasOutput().GetNumberOfPoints(), 5 * 8)
+        self.ran.clear()
+        octree.SetDepth(5)
+        octree.Update()
+        self.assertEqual(self.ran, ["vtkSilhouetteOctreeSource"])
+
+    def test_a_stopped_filter(self):
+        octree = self.filters["vtkSilhouetteOctreeSource"]
+        stop = octree.AddObserver("ProgressEvent", lambda caller, event: caller.SetAbortExecute(True))
+        octree.SetDepth(5)
+        octree.Update()
+        self.assertTrue(octree.GetAbortExecute())
+        self.assertEqual(octree.GetOutput().GetNumberOfVertices(), 0)
+        octree.RemoveObserver(stop)
+        octree.Update()
+        self.assertEqual(octree.GetOutput().GetNumberOfVertices(), 0, "not run again by itself")
+        octree.Modified()
+        octree.Update()
+        self.assertFalse(octree.GetAbortExecute())
+        self.assertGreater(octree.GetOutput().GetNumberOfVertices(), 0)
 
 
 if __name__ == "__main__":

@@ -94,14 +94,15 @@ if(PYTHON)
 endif()
 
 if(PYTHON AND PROGRAM AND NOT OFFSCREEN STREQUAL "none")
-  # Examples/Python and Examples/Cxx, built and run by the document's commands. Real photographs are left to the
-  # build tree's run of this test.
+  # Examples/Python and Examples/Cxx, built and run by the document's commands. Real photographs, and what does
+  # not concern the install tree, are left to the build tree's run of this test.
   run("the examples" COMMAND
     "${CMAKE_COMMAND}" -E env --unset=LD_PRELOAD
       "SILHOUETTE_PREFIX=${prefix}" "SILHOUETTE_PROGRAM=${BIN_DIR}/vtksilhouette" SILHOUETTE_REAL_DATA=none
       "PYTHONPATH=${prefix}/${PYTHON_PATH}" PYTHONDONTWRITEBYTECODE=1
       "CMAKE_GENERATOR=${GENERATOR}" "CC=${C_COMPILER}" "CXX=${CXX_COMPILER}" "CXXFLAGS=${CXX_FLAGS}"
       "VTK_DIR=${VTK_DIR}"
-      "${PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/../Examples/TestExamples.py")
+      "${PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/../Examples/TestExamples.py"
+      Package PhotographsToMesh JudgedMesh VoteShareSweep)
 endif()
 file(REMOVE_RECURSE "${WORK_DIR}")
