@@ -4,8 +4,8 @@
  *
  *   JudgedMesh CAPTURE MESH.vtp [DEPTH [THREADS [SECONDS]]]
  *
- * CAPTURE holds masks, or images that are silhouettes already, and their cameras. The mesh is that of `vtksilhouette
- * reconstruct CAPTURE -o MESH.vtp`, triangle for triangle. Exit code 0: the mesh is sound, and written.
+ * CAPTURE holds masks, or images that are silhouettes already, and their cameras. The mesh is that of
+ * `vtksilhouette reconstruct CAPTURE -o MESH.vtp`, triangle for triangle. Exit code 0: it is sound, and written.
  */
 #include <vtkCommand.h>
 #include <vtkDataArray.h>

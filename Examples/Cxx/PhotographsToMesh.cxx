@@ -4,9 +4,10 @@
  *
  *   PhotographsToMesh CAPTURE MESH.ply PICTURE.png [DEPTH]
  *
- * CAPTURE holds photographs on a blue background and their cameras (`vtksilhouette synthesize jug` makes one). The
- * mesh is that of `vtksilhouette reconstruct CAPTURE --carving strict --key blue:0.08 --largest-region -o MESH.ply`,
- * byte for byte.
+ * CAPTURE holds photographs on a blue background and their cameras (`vtksilhouette synthesize jug` makes one).
+ * The mesh is, byte for byte, that of
+ *
+ *   vtksilhouette reconstruct CAPTURE --carving strict --key blue:0.08 --largest-region -o MESH.ply
  */
 #include "SilhouetteOffScreen.h"
 

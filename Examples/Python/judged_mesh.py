@@ -3,8 +3,8 @@
 
     python3 judged_mesh.py CAPTURE MESH.vtp [--depth N] [--threads N] [--seconds S]
 
-CAPTURE holds masks, or images that are silhouettes already, and their cameras. The mesh is that of `vtksilhouette
-reconstruct CAPTURE -o MESH.vtp`, triangle for triangle. Exit code 0: the mesh is sound, and written.
+CAPTURE holds masks, or images that are silhouettes already, and their cameras. The mesh is that of
+`vtksilhouette reconstruct CAPTURE -o MESH.vtp`, triangle for triangle. Exit code 0: it is sound, and written.
 """
 
 import argparse

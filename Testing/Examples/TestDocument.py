@@ -30,7 +30,8 @@ class TestBlocks(unittest.TestCase):
                 found = document.untrue_blocks(planted)
                 self.assertEqual(len(found), 1)
                 self.assertIn(words, found[0])
-        self.assertEqual(document.untrue_blocks(named + "```python\nwatch.run(reader)\nwatch.run(extractor)\n```"), [])
+        true = named + "```python\nwatch.run(reader)\nwatch.run(extractor)\n```"
+        self.assertEqual(document.untrue_blocks(true), [])
 
 
 def synthesized(folder):
@@ -44,8 +45,8 @@ def synthesized(folder):
 def pipeline(capture):
     """The filters by class name, up to date."""
     made = {name: getattr(vtksilhouette, name)() for name in (
-        "vtkSilhouetteCaptureReader", "vtkSilhouetteExtractor", "vtkSilhouetteOctreeSource", "vtkVotingMarchingCubes",
-        "vtkLocalHullSurfacer", "vtkSilhouetteEvaluator")}
+        "vtkSilhouetteCaptureReader", "vtkSilhouetteExtractor", "vtkSilhouetteOctreeSource",
+        "vtkVotingMarchingCubes", "vtkLocalHullSurfacer", "vtkSilhouetteEvaluator")}
     reader, extractor, octree, cubes, hulls, evaluator = made.values()
     reader.SetFileName(capture)
     extractor.SetInputConnection(reader.GetOutputPort())
@@ -96,11 +97,12 @@ class TestTable(unittest.TestCase):
                 self.assertGreater(found.GetNumberOfTuples(), 0)
 
     def test_no_output_is_left_out(self):
-        ports = {(name, port) for name, made in self.filters.items() for port in range(made.GetNumberOfOutputPorts())}
+        ports = {(name, port) for name, made in self.filters.items()
+                 for port in range(made.GetNumberOfOutputPorts())}
         self.assertEqual({row[:2] for row in self.rows}, ports)
 
     def test_field_data_pass_through(self):
-        octree, cubes, hulls, table = (self.filters[name].GetOutputDataObject(0) for name in list(self.filters)[2:])
+        octree, cubes, hulls, table = (made.GetOutputDataObject(0) for made in list(self.filters.values())[2:])
         for name in ("Depth", "RootCube", "BackgroundVotes", "CarvedByView"):
             for data in (octree, cubes, hulls):
                 self.assertIsNotNone(array_of(data, "field", name), name)

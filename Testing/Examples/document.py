@@ -6,7 +6,8 @@ import re
 import textwrap
 
 TREE = pathlib.Path(__file__).resolve().parents[2]
-FENCE = re.compile(r"^(?:<!-- (?P<source>\S+) -->\n)?```(?P<language>\w*)\n(?P<code>.*?)^```$", re.DOTALL | re.MULTILINE)
+FENCE = re.compile(r"^(?:<!-- (?P<source>\S+) -->\n)?```(?P<language>\w*)\n(?P<code>.*?)^```$",
+                   re.DOTALL | re.MULTILINE)
 
 
 def text():
