@@ -306,5 +306,19 @@ class VoteShareSweep(unittest.TestCase):
         self.assertFalse((folder / "none.png").exists())
 
 
+class NumpyMasks(unittest.TestCase):
+    def test_the_ball(self):
+        printed = good(*python("numpy_masks.py", "ball.obj"))
+        count, made, ball = re.fullmatch(r"(\d+) triangles, volume ([\d.]+), of the ball ([\d.]+)\n", printed).groups()
+        self.assertAlmostEqual(float(ball), np.pi / 6.0, delta=1e-4)
+        self.assertAlmostEqual(float(made), float(ball), delta=0.02 * float(ball))  # a pixel is 1.5 % of the radius
+        lines = (folder / "ball.obj").read_text().splitlines()
+        triangles = [tuple(map(int, line.split()[1:])) for line in lines if line.startswith("f ")]
+        self.assertEqual(len(triangles), int(count))
+        edges = {(t[i], t[i - 2]) for t in triangles for i in range(3)}
+        self.assertEqual(len(edges), 3 * len(triangles), "each edge once in each direction: manifold, oriented")
+        self.assertEqual(edges, {(last, first) for first, last in edges}, "closed")
+
+
 if __name__ == "__main__":
     unittest.main()
