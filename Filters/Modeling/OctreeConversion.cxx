@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "FieldValues.h"
+#include "vtkSilhouetteCompatibility.h"
 
 #include "vtkBitArray.h"
 #include "vtkCellData.h"
@@ -339,7 +340,7 @@ Octree octreeOf(vtkHyperTreeGrid* grid)
 
 bool isEmpty(vtkHyperTreeGrid* grid)
 {
-  return !grid || grid->GetNumberOfVertices() == 0;
+  return !grid || numberOfOctants(grid) == 0;
 }
 
 } // namespace silhouette::modeling

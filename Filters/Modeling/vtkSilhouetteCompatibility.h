@@ -6,6 +6,7 @@
 #pragma once
 
 #include "vtkAlgorithm.h"
+#include "vtkHyperTreeGrid.h"
 #include "vtkVersionMacros.h"
 
 namespace silhouette::modeling
@@ -18,6 +19,16 @@ inline bool abortRequested(vtkAlgorithm* filter)
   return filter->CheckAbort();
 #else
   return filter->GetAbortExecute() != 0;
+#endif
+}
+
+/** Cells of all trees, masked ones too. */
+inline vtkIdType numberOfOctants(vtkHyperTreeGrid* grid)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0)
+  return grid->GetNumberOfCells();
+#else
+  return grid->GetNumberOfVertices();
 #endif
 }
 

@@ -160,6 +160,36 @@ int vtkSilhouetteOctreeSource::GetNumberOfAddedViews()
   return static_cast<int>(this->Internals->Added.size());
 }
 
+void vtkSilhouetteOctreeSource::SetBoundsOrigin(double x, double y, double z)
+{
+  double size[3];
+  this->GetBoundsSize(size);
+  this->SetBounds(x, x + size[0], y, y + size[1], z, z + size[2]);
+}
+
+void vtkSilhouetteOctreeSource::GetBoundsOrigin(double origin[3])
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    origin[axis] = this->Bounds[2 * axis];
+  }
+}
+
+void vtkSilhouetteOctreeSource::SetBoundsSize(double x, double y, double z)
+{
+  double origin[3];
+  this->GetBoundsOrigin(origin);
+  this->SetBounds(origin[0], origin[0] + x, origin[1], origin[1] + y, origin[2], origin[2] + z);
+}
+
+void vtkSilhouetteOctreeSource::GetBoundsSize(double size[3])
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    size[axis] = this->Bounds[2 * axis + 1] - this->Bounds[2 * axis];
+  }
+}
+
 vtkHyperTreeGrid* vtkSilhouetteOctreeSource::GetOutput()
 {
   return vtkHyperTreeGrid::SafeDownCast(this->GetOutputDataObject(0));

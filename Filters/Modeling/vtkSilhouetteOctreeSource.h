@@ -137,6 +137,19 @@ public:
 
   ///@{
   /**
+   * The same box by its lowest corner and its edges, as box widgets have it; default -1 and 2 each. Either keeps the
+   * other.
+   */
+  void SetBoundsOrigin(double x, double y, double z);
+  void SetBoundsOrigin(const double origin[3]) { this->SetBoundsOrigin(origin[0], origin[1], origin[2]); }
+  void GetBoundsOrigin(double origin[3]);
+  void SetBoundsSize(double x, double y, double z);
+  void SetBoundsSize(const double size[3]) { this->SetBoundsSize(size[0], size[1], size[2]); }
+  void GetBoundsSize(double size[3]);
+  ///@}
+
+  ///@{
+  /**
    * How many views may call an octant background without its being carved, 0 to the number of views less one;
    * default 0, the strict octree. Larger forgives more wrong silhouettes and gives a larger object.
    */

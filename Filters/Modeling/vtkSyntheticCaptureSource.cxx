@@ -53,7 +53,7 @@ vtkSyntheticCaptureSource::vtkSyntheticCaptureSource()
   this->NumberOfViews = defaults.views;
   this->Width = defaults.width;
   this->Height = defaults.height;
-  this->Seed = defaults.seed;
+  this->Seed = static_cast<vtkIdType>(defaults.seed);
   this->NoiseContour = defaults.noiseContour;
   this->NoiseBlobs = defaults.noiseBlobs;
   this->NoisePixels = defaults.noisePixels;
@@ -118,7 +118,7 @@ int vtkSyntheticCaptureSource::RequestData(vtkInformation*, vtkInformationVector
     options.views = this->NumberOfViews;
     options.width = this->Width;
     options.height = this->Height;
-    options.seed = this->Seed;
+    options.seed = static_cast<std::uint64_t>(this->Seed);
     options.noiseContour = this->NoiseContour;
     options.noiseBlobs = this->NoiseBlobs;
     options.noisePixels = this->NoisePixels;

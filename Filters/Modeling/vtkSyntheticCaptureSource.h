@@ -93,8 +93,8 @@ public:
 
   ///@{
   /** Any number, default 0: another one draws other noise of the same strength. */
-  vtkSetMacro(Seed, vtkTypeUInt64);
-  vtkGetMacro(Seed, vtkTypeUInt64);
+  vtkSetMacro(Seed, vtkIdType);
+  vtkGetMacro(Seed, vtkIdType);
   ///@}
 
   ///@{
@@ -152,7 +152,7 @@ protected:
   int NumberOfViews;
   int Width;
   int Height;
-  vtkTypeUInt64 Seed;
+  vtkIdType Seed;
   double NoiseContour;
   int NoiseBlobs;
   double NoisePixels;

@@ -142,7 +142,7 @@ void Synthesize::configure(vtkSyntheticCaptureSource* source) const
   source->SetNumberOfViews(this->Views);
   source->SetWidth(this->Width);
   source->SetHeight(this->Height);
-  source->SetSeed(this->Seed);
+  source->SetSeed(static_cast<vtkIdType>(this->Seed));
   source->SetNoiseContour(this->NoiseContour);
   source->SetNoiseBlobs(this->NoiseBlobs);
   source->SetNoisePixels(this->NoisePixels);
