@@ -1,70 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OctantTest.h"
 
+#include "Bits.h"
 #include "MarchingCubesTable.h"
+#include "Vectorised.h"
 
 #include <limits>
-#include <vector>
 
 namespace silhouette
 {
 namespace
 {
 
+constexpr double Infinite = std::numeric_limits<double>::infinity();
+
+/** Where the corners of an octant in front of the camera come to lie, and the pixels of their bounding box. */
 struct ProjectedOctant
 {
   double x[8];
   double y[8];
-  double leastX, greatestX, leastY, greatestY;
+  int firstColumn, lastColumn, firstRow, lastRow;
 };
-
-enum class Side
-{
-  InFront,
-  Behind,
-  Straddling
-};
-
-/** Project the corners; each gets the bits that LatticeProjection gives it. */
-Side project(const LatticeProjection& p, const OctantBox& octant, ProjectedOctant& out)
-{
-  const auto& o = octant.lowest;
-  double W[8];
-  double leastW = std::numeric_limits<double>::infinity();
-  double greatestW = -leastW;
-  for (int c = 0; c < 8; ++c)
-  {
-    const LatticePoint d = cornerOffset(c);
-    const auto h = p({ o.i + d.i * octant.size, o.j + d.j * octant.size, o.k + d.k * octant.size });
-    out.x[c] = h.U;
-    out.y[c] = h.V;
-    W[c] = h.W;
-    leastW = std::min(leastW, h.W);
-    greatestW = std::max(greatestW, h.W);
-  }
-  // A margin, so that no lattice point of the octant is on the other side by rounding.
-  const double margin = 1e-6 * p.minimumDepth;
-  if (greatestW < p.minimumDepth - margin)
-  {
-    return Side::Behind;
-  }
-  if (leastW < p.minimumDepth + margin)
-  {
-    return Side::Straddling;
-  }
-  out.leastX = out.leastY = std::numeric_limits<double>::infinity();
-  out.greatestX = out.greatestY = -out.leastX;
-  for (int c = 0; c < 8; ++c)
-  {
-    out.x[c] /= W[c];
-    out.y[c] /= W[c];
-    out.leastX = std::min(out.leastX, out.x[c]);
-    out.greatestX = std::max(out.greatestX, out.x[c]);
-    out.leastY = std::min(out.leastY, out.y[c]);
-    out.greatestY = std::max(out.greatestY, out.y[c]);
-  }
-  return Side::InFront;
-}
 
 ViewRelation relation(const PixelContent& content)
 {
@@ -86,62 +42,107 @@ void merge(PixelContent& into, const PixelContent& other)
   into.abstain |= other.abstain;
 }
 
-/** For each image row, with one band above the image and one below, the polygon's extent in x. */
-struct RowSpans
+/** The twelve edges of a projected octant, each from its upper end to its lower one. */
+struct Outline
 {
-  int firstRow; ///< -1 is the band above
-  std::vector<double> least, greatest;
+  double x[12], y[12];             ///< the upper end
+  double endY[12];                 ///< the lower end
+  double width[12];                ///< from the upper end to the lower one
+  double perRow[12];               ///< share of the edge to a row; 0 where it is level
+  double level[12];                ///< 1 where the edge is level
 };
 
-/** Widen the spans by the part of segment a-b that lies in each row's band of half-open pixels. */
-void addEdge(RowSpans& spans, int height, double ax, double ay, double bx, double by)
+SILHOUETTE_VECTORISED void makeOutline(const ProjectedOctant& p, Outline& out)
 {
-  if (ay > by)
+  double ax[12], ay[12], bx[12], by[12];
+  for (int e = 0; e < 12; ++e)
   {
-    std::swap(ax, bx);
-    std::swap(ay, by);
+    ax[e] = p.x[edgeCorners[e][0]];
+    ay[e] = p.y[edgeCorners[e][0]];
+    bx[e] = p.x[edgeCorners[e][1]];
+    by[e] = p.y[edgeCorners[e][1]];
   }
-  const int last = spans.firstRow + int(spans.least.size()) - 1;
-  const int from = std::max(spans.firstRow, PreparedView::nearestPixel(ay - OctantGuard, height));
-  const int to = std::min(last, PreparedView::nearestPixel(by + OctantGuard, height));
-  const double dy = by - ay;
-  for (int row = from; row <= to; ++row)
+  for (int e = 0; e < 12; ++e)
   {
-    const double low = row < 0 ? ay : std::max(ay, row - 0.5 - OctantGuard);
-    const double high = row >= height ? by : std::min(by, row + 0.5 + OctantGuard);
-    const double s = dy > 0.0 ? std::clamp((low - ay) / dy, 0.0, 1.0) : 0.0;
-    const double t = dy > 0.0 ? std::clamp((high - ay) / dy, 0.0, 1.0) : 1.0;
-    const double x0 = ax + s * (bx - ax);
-    const double x1 = ax + t * (bx - ax);
-    double& least = spans.least[row - spans.firstRow];
-    double& greatest = spans.greatest[row - spans.firstRow];
-    least = std::min(least, std::min(x0, x1));
-    greatest = std::max(greatest, std::max(x0, x1));
+    const bool swap = ay[e] > by[e];
+    const double upperX = swap ? bx[e] : ax[e], lowerX = swap ? ax[e] : bx[e];
+    const double upperY = swap ? by[e] : ay[e], lowerY = swap ? ay[e] : by[e];
+    const double dy = lowerY - upperY;
+    out.x[e] = upperX;
+    out.y[e] = upperY;
+    out.endY[e] = lowerY;
+    out.width[e] = lowerX - upperX;
+    out.level[e] = dy > 0.0 ? 0.0 : 1.0;
+    out.perRow[e] = dy > 0.0 ? 1.0 / dy : 0.0;
   }
 }
 
-/** The exact polygon. The outline of a projected cube consists of projected edges, so the twelve edges suffice. */
-ViewRelation relatePolygon(const PreparedView& view, const ProjectedOctant& p, int firstRow, int lastRow)
+/**
+ * Extent in x of the part of the polygon that lies in a row's band of half-open pixels, widened by the guard above
+ * and below; least > greatest where there is none. Row -1 is all that is above an image of `height` rows, row
+ * `height` all that is below.
+ */
+SILHOUETTE_VECTORISED void spanOfRow(const Outline& edges, int row, int height, double& least, double& greatest)
 {
-  thread_local RowSpans spans;
-  const std::size_t rows = std::size_t(lastRow - firstRow + 1);
-  spans.firstRow = firstRow;
-  spans.least.assign(rows, std::numeric_limits<double>::infinity());
-  spans.greatest.assign(rows, -std::numeric_limits<double>::infinity());
-  for (const auto& edge : edgeCorners)
+  const double top = row < 0 ? -Infinite : row - 0.5 - OctantGuard;
+  const double bottom = row >= height ? Infinite : row + 0.5 + OctantGuard;
+  const double above = row < 0 ? -Infinite : double(row), below = row >= height ? Infinite : row + 1.0;
+  double low[12], high[12];
+  for (int e = 0; e < 12; ++e)
   {
-    addEdge(spans, view.height, p.x[edge[0]], p.y[edge[0]], p.x[edge[1]], p.y[edge[1]]);
+    const double from = top > edges.y[e] ? top : edges.y[e];
+    const double to = bottom < edges.endY[e] ? bottom : edges.endY[e];
+    double s = (from - edges.y[e]) * edges.perRow[e];
+    double t = (to - edges.y[e]) * edges.perRow[e] + edges.level[e];
+    s = s < 0.0 ? 0.0 : s;
+    s = s > 1.0 ? 1.0 : s;
+    t = t < 0.0 ? 0.0 : t;
+    t = t > 1.0 ? 1.0 : t;
+    const double x0 = edges.x[e] + s * edges.width[e];
+    const double x1 = edges.x[e] + t * edges.width[e];
+    const bool meets = (edges.y[e] - OctantGuard + 0.5 < below) & (edges.endY[e] + OctantGuard + 0.5 >= above);
+    const double smaller = x0 < x1 ? x0 : x1, larger = x0 < x1 ? x1 : x0;
+    low[e] = meets ? smaller : Infinite;
+    high[e] = meets ? larger : -Infinite;
   }
-  PixelContent content;
-  for (int row = firstRow; row <= lastRow; ++row)
+  for (int e = 0; e < 4; ++e)
   {
-    const double least = spans.least[row - firstRow];
-    const double greatest = spans.greatest[row - firstRow];
-    if (least <= greatest)
+    low[e] = low[e + 4] < low[e] ? low[e + 4] : low[e];
+    low[e] = low[e + 8] < low[e] ? low[e + 8] : low[e];
+    high[e] = high[e + 4] > high[e] ? high[e + 4] : high[e];
+    high[e] = high[e + 8] > high[e] ? high[e + 8] : high[e];
+  }
+  least = std::min(std::min(low[0], low[1]), std::min(low[2], low[3]));
+  greatest = std::max(std::max(high[0], high[1]), std::max(high[2], high[3]));
+}
+
+/** Columns of the polygon in a row, within those of its box; false where there are none. */
+bool columnsOfRow(
+  const PreparedView& view, const ProjectedOctant& p, const Outline& edges, int row, int& first, int& last)
+{
+  double least = 0.0, greatest = 0.0;
+  spanOfRow(edges, row, view.height, least, greatest);
+  if (!(least <= greatest))
+  {
+    return false;
+  }
+  first = std::max(p.firstColumn, PreparedView::nearestPixel(least - OctantGuard, view.width));
+  last = std::min(p.lastColumn, PreparedView::nearestPixel(greatest + OctantGuard, view.width));
+  return true;
+}
+
+/** The exact polygon, wherever it lies. */
+ViewRelation relatePolygon(const PreparedView& view, const ProjectedOctant& p)
+{
+  Outline edges;
+  makeOutline(p, edges);
+  PixelContent content;
+  for (int row = p.firstRow; row <= p.lastRow; ++row)
+  {
+    int first = 0, last = 0;
+    if (columnsOfRow(view, p, edges, row, first, last))
     {
-      merge(content,
-        view.content(PreparedView::nearestPixel(least - OctantGuard, view.width),
-          PreparedView::nearestPixel(greatest + OctantGuard, view.width), row, row));
+      merge(content, view.content(first, last, row, row));
     }
     if (content.background && (content.object || content.abstain))
     {
@@ -151,27 +152,259 @@ ViewRelation relatePolygon(const PreparedView& view, const ProjectedOctant& p, i
   return relation(content);
 }
 
+/**
+ * The exact polygon of an octant whose box lies in the image and holds both kinds of pixels. The corners' own pixels
+ * lie in the polygon: where they differ, nothing else need be asked. Where they agree, only rows that hold the other
+ * kind somewhere in the box can matter.
+ */
+ViewRelation relatePolygonInImage(const PreparedView& view, const ProjectedOctant& p)
+{
+  const auto column = [&](int c) { return int(p.x[c] + 0.5); };
+  const auto row = [&](int c) { return int(p.y[c] + 0.5); };
+  const bool object = view.objectInImage(column(0), row(0));
+  for (int c = 1; c < 8; ++c)
+  {
+    if (view.objectInImage(column(c), row(c)) != object)
+    {
+      return ViewRelation::Mixed;
+    }
+  }
+  Outline edges;
+  makeOutline(p, edges);
+  const auto differs = [&](int c0, int c1, int r0, int r1)
+  {
+    const TileContent content = view.contentInImage(c0, c1, r0, r1);
+    return object ? content.background : content.object;
+  };
+  for (int r0 = p.firstRow; r0 <= p.lastRow; r0 = (r0 | 7) + 1)
+  {
+    const int r1 = std::min(p.lastRow, r0 | 7);
+    if (!differs(p.firstColumn, p.lastColumn, r0, r1))
+    {
+      continue;
+    }
+    for (int r = r0; r <= r1; ++r)
+    {
+      int first = 0, last = 0;
+      if (columnsOfRow(view, p, edges, r, first, last) && differs(first, last, r, r))
+      {
+        return ViewRelation::Mixed;
+      }
+    }
+  }
+  return object ? ViewRelation::Inside : ViewRelation::Background;
+}
+
+/** The same for a box of at most 8 x 8 pixels, of which `objects` are object and `box` all. */
+ViewRelation relatePolygonInWindow(
+  const PreparedView& view, const ProjectedOctant& p, std::uint64_t objects, std::uint64_t box)
+{
+  std::uint64_t corners = 0;
+  for (int c = 0; c < 8; ++c)
+  {
+    corners |= std::uint64_t(1) << (8 * (int(p.y[c] + 0.5) - p.firstRow) + int(p.x[c] + 0.5) - p.firstColumn);
+  }
+  const bool object = (corners & objects) != 0;
+  if (object && (corners & ~objects) != 0)
+  {
+    return ViewRelation::Mixed;
+  }
+  Outline edges;
+  makeOutline(p, edges);
+  const std::uint64_t others = object ? box & ~objects : objects;
+  for (int row = p.firstRow; row <= p.lastRow; ++row)
+  {
+    const unsigned differ = unsigned(others >> 8 * (row - p.firstRow)) & 0xffu;
+    int first = 0, last = 0;
+    if (differ != 0 && columnsOfRow(view, p, edges, row, first, last) &&
+      (differ & 0xffu >> (7 - (last - first)) << (first - p.firstColumn)) != 0)
+    {
+      return ViewRelation::Mixed;
+    }
+  }
+  return object ? ViewRelation::Inside : ViewRelation::Background;
+}
+
+/** The stages, from the bounding box on. */
+ViewRelation relateProjected(const PreparedView& view, const ProjectedOctant& p, bool polygon)
+{
+  const int columns = p.lastColumn - p.firstColumn + 1, rows = p.lastRow - p.firstRow + 1;
+  // The polygon touches every row and every column of its box: only a box of two and more each leaves pixels out.
+  const bool narrow = columns == 1 || rows == 1;
+  if (!view.inImage(p.firstColumn, p.lastColumn, p.firstRow, p.lastRow))
+  {
+    const ViewRelation box = relation(view.content(p.firstColumn, p.lastColumn, p.firstRow, p.lastRow));
+    const bool decided = !polygon || narrow || (box != ViewRelation::Mixed && box != ViewRelation::Partial);
+    return decided ? box : relatePolygon(view, p);
+  }
+  if (columns <= PixelTiles::Size && rows <= PixelTiles::Size)
+  {
+    const std::uint64_t box = PixelTiles::windowPart(columns, rows);
+    const std::uint64_t objects = view.window(p.firstColumn, p.firstRow) & box;
+    if (objects == 0 || objects == box)
+    {
+      return objects == 0 ? ViewRelation::Background : ViewRelation::Inside;
+    }
+    return !polygon || narrow ? ViewRelation::Mixed : relatePolygonInWindow(view, p, objects, box);
+  }
+  const TileContent content = view.contentInImage(p.firstColumn, p.lastColumn, p.firstRow, p.lastRow);
+  if (!content.object || !content.background)
+  {
+    return content.object ? ViewRelation::Inside : ViewRelation::Background;
+  }
+  return !polygon || narrow ? ViewRelation::Mixed : relatePolygonInImage(view, p);
+}
+
 ViewRelation relateInStages(
   const PreparedView& view, const LatticeProjection& projection, const OctantBox& octant, bool polygon)
 {
   ProjectedOctant p;
-  const Side side = project(projection, octant, p);
-  if (side != Side::InFront)
+  double leastW = Infinite, greatestW = -Infinite;
+  double leastX = Infinite, greatestX = -Infinite, leastY = Infinite, greatestY = -Infinite;
+  for (int c = 0; c < 8; ++c)
   {
-    return side == Side::Behind ? ViewRelation::Abstain : ViewRelation::Mixed;
+    const LatticePoint d = cornerOffset(c);
+    const auto& o = octant.lowest;
+    const auto h = projection({ o.i + d.i * octant.size, o.j + d.j * octant.size, o.k + d.k * octant.size });
+    p.x[c] = h.U / h.W;
+    p.y[c] = h.V / h.W;
+    leastW = std::min(leastW, h.W);
+    greatestW = std::max(greatestW, h.W);
+    leastX = std::min(leastX, p.x[c]);
+    greatestX = std::max(greatestX, p.x[c]);
+    leastY = std::min(leastY, p.y[c]);
+    greatestY = std::max(greatestY, p.y[c]);
   }
-  const int firstColumn = PreparedView::nearestPixel(p.leastX - OctantGuard, view.width);
-  const int lastColumn = PreparedView::nearestPixel(p.greatestX + OctantGuard, view.width);
-  const int firstRow = PreparedView::nearestPixel(p.leastY - OctantGuard, view.height);
-  const int lastRow = PreparedView::nearestPixel(p.greatestY + OctantGuard, view.height);
-  const ViewRelation box = relation(view.content(firstColumn, lastColumn, firstRow, lastRow));
-  // The polygon touches every row and every column of its box: only a box of two and more each leaves pixels out.
-  if (!polygon || (box != ViewRelation::Mixed && box != ViewRelation::Partial) || firstColumn == lastColumn ||
-    firstRow == lastRow)
+  // A margin, so that no lattice point of the octant is on the other side by rounding.
+  const double margin = 1e-6 * projection.minimumDepth;
+  if (leastW < projection.minimumDepth + margin)
   {
-    return box;
+    return greatestW < projection.minimumDepth - margin ? ViewRelation::Abstain : ViewRelation::Mixed;
   }
-  return relatePolygon(view, p, firstRow, lastRow);
+  p.firstColumn = PreparedView::nearestPixel(leastX - OctantGuard, view.width);
+  p.lastColumn = PreparedView::nearestPixel(greatestX + OctantGuard, view.width);
+  p.firstRow = PreparedView::nearestPixel(leastY - OctantGuard, view.height);
+  p.lastRow = PreparedView::nearestPixel(greatestY + OctantGuard, view.height);
+  return relateProjected(view, p, polygon);
+}
+
+/** The 27 lattice points that the children of an octant share: point i + 3 j + 9 k. The last value is spare. */
+struct ChildGrid
+{
+  double x[28], y[28];
+  double leastW;
+};
+
+/** For each child the bounding box's pixels. */
+struct ChildBoxes
+{
+  int firstColumn[8], lastColumn[8], firstRow[8], lastRow[8];
+};
+
+/**
+ * One coordinate of the grid: the sums of LatticeProjection in its own order, so that each point gets the bits that
+ * it gets there.
+ */
+inline void projectCoordinate(
+  double constant, double stepI, double stepJ, double stepK, const OctantBox& parent, double values[28])
+{
+  const std::int32_t half = parent.size / 2;
+  double plane[9];
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      plane[3 * j + i] =
+        (constant + stepI * double(parent.lowest.i + i * half)) + stepJ * double(parent.lowest.j + j * half);
+    }
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    const double along = stepK * double(parent.lowest.k + k * half);
+    for (int n = 0; n < 9; ++n)
+    {
+      values[9 * k + n] = plane[n] + along;
+    }
+  }
+  values[27] = values[26];
+}
+
+inline double smaller(double a, double b)
+{
+  return b < a ? b : a;
+}
+
+inline double larger(double a, double b)
+{
+  return a < b ? b : a;
+}
+
+/** For each child the least (or greatest, by `pick`) of its eight corners' values, one axis after another. */
+template <typename Pick> inline void overCorners(const double values[28], const Pick& pick, double result[8])
+{
+  double planes[18], rows[12];
+  for (int n = 0; n < 18; ++n)
+  {
+    planes[n] = pick(values[n], values[n + 9]);
+  }
+  for (int k = 0; k < 2; ++k)
+  {
+    for (int n = 0; n < 6; ++n)
+    {
+      rows[6 * k + n] = pick(planes[9 * k + n], planes[9 * k + n + 3]);
+    }
+  }
+  for (int n = 0; n < 4; ++n)
+  {
+    result[2 * n] = pick(rows[3 * n], rows[3 * n + 1]);
+    result[2 * n + 1] = pick(rows[3 * n + 1], rows[3 * n + 2]);
+  }
+}
+
+inline void nearestPixels(const double values[8], double guard, int size, int pixels[8])
+{
+  for (int c = 0; c < 8; ++c)
+  {
+    const double shifted = (values[c] + guard) + 0.5;
+    const double low = shifted >= 0.0 ? shifted : -1.0; // of what is behind the camera: anything but no number
+    pixels[c] = int(low >= size ? double(size) : low);
+  }
+}
+
+SILHOUETTE_VECTORISED void projectChildren(const PreparedView& view, const LatticeProjection& projection,
+  const OctantBox& parent, ChildGrid& grid, ChildBoxes& boxes)
+{
+  const auto& q = projection;
+  double U[28], V[28], W[28];
+  projectCoordinate(q.constant[0], q.step[0][0], q.step[1][0], q.step[2][0], parent, U);
+  projectCoordinate(q.constant[1], q.step[0][1], q.step[1][1], q.step[2][1], parent, V);
+  projectCoordinate(q.constant[2], q.step[0][2], q.step[1][2], q.step[2][2], parent, W);
+  double leastW[4] = { W[0], W[1], W[2], W[3] };
+  for (int n = 0; n < 28; n += 4)
+  {
+    for (int lane = 0; lane < 4; ++lane)
+    {
+      leastW[lane] = smaller(leastW[lane], W[n + lane]);
+      grid.x[n + lane] = U[n + lane] / W[n + lane];
+      grid.y[n + lane] = V[n + lane] / W[n + lane];
+    }
+  }
+  grid.leastW = smaller(smaller(leastW[0], leastW[1]), smaller(leastW[2], leastW[3]));
+  double bound[8];
+  overCorners(grid.x, smaller, bound);
+  nearestPixels(bound, -OctantGuard, view.width, boxes.firstColumn);
+  overCorners(grid.x, larger, bound);
+  nearestPixels(bound, OctantGuard, view.width, boxes.lastColumn);
+  overCorners(grid.y, smaller, bound);
+  nearestPixels(bound, -OctantGuard, view.height, boxes.firstRow);
+  overCorners(grid.y, larger, bound);
+  nearestPixels(bound, OctantGuard, view.height, boxes.lastRow);
+}
+
+/** Point of the grid that is corner 0 of child c, and of the other corners from there. */
+constexpr int gridOffset(int c)
+{
+  return (c & 1) + 3 * (c >> 1 & 1) + 9 * (c >> 2 & 1);
 }
 
 } // namespace
@@ -185,6 +418,38 @@ ViewRelation relateBoundingBox(
   const PreparedView& view, const LatticeProjection& projection, const OctantBox& octant)
 {
   return relateInStages(view, projection, octant, false);
+}
+
+void relateChildren(const PreparedView& view, const LatticeProjection& projection, const OctantBox& parent,
+  unsigned children, std::array<ViewRelation, 8>& relations)
+{
+  ChildGrid grid;
+  ChildBoxes boxes;
+  projectChildren(view, projection, parent, grid, boxes);
+  const bool inFront = !(grid.leastW < projection.minimumDepth + 1e-6 * projection.minimumDepth);
+  for (unsigned left = children; left != 0; left &= left - 1)
+  {
+    const int child = lowestBit(left);
+    if (!inFront)
+    {
+      const std::int32_t half = parent.size / 2;
+      const LatticePoint d = cornerOffset(child);
+      const auto& o = parent.lowest;
+      relations[child] = relate(view, projection, { { o.i + d.i * half, o.j + d.j * half, o.k + d.k * half }, half });
+      continue;
+    }
+    ProjectedOctant p;
+    for (int c = 0; c < 8; ++c)
+    {
+      p.x[c] = grid.x[gridOffset(child) + gridOffset(c)];
+      p.y[c] = grid.y[gridOffset(child) + gridOffset(c)];
+    }
+    p.firstColumn = boxes.firstColumn[child];
+    p.lastColumn = boxes.lastColumn[child];
+    p.firstRow = boxes.firstRow[child];
+    p.lastRow = boxes.lastRow[child];
+    relations[child] = relateProjected(view, p, true);
+  }
 }
 
 } // namespace silhouette
