@@ -61,6 +61,15 @@ struct UndecidedViews
   std::vector<std::uint8_t> seen;           ///< 1 where some view sees all of the octant
 };
 
+/** Whom to ask about the points of an octant, and what the other views have said of all of it. */
+struct ViewsToAsk
+{
+  const std::uint16_t* views = nullptr;
+  std::size_t count = 0;
+  int backgroundVotes = 0; ///< of the others
+  bool seen = false;       ///< one of the others sees all of the octant
+};
+
 struct Octree
 {
   Lattice lattice;

@@ -112,17 +112,6 @@ int projectionRank(const Projection& projection)
   return int(decomposition.rank());
 }
 
-Vote PreparedView::pixelVote(int column, int row) const
-{
-  if (column >= 0 && row >= 0 && column < this->width && row < this->height)
-  {
-    return this->tiles.object(column, row) ? Vote::Object : Vote::Background;
-  }
-  const bool abstains = (column < 0 && this->open[0]) || (column >= this->width && this->open[1]) ||
-    (row < 0 && this->open[2]) || (row >= this->height && this->open[3]);
-  return abstains ? Vote::Abstain : Vote::Background;
-}
-
 PixelContent PreparedView::content(int firstColumn, int lastColumn, int firstRow, int lastRow) const
 {
   PixelContent content;
@@ -153,7 +142,7 @@ PixelContent PreparedView::content(int firstColumn, int lastColumn, int firstRow
       {
         const int column = x == 0 ? -1 : (x == 1 ? 0 : this->width);
         const int row = y == 0 ? -1 : (y == 1 ? 0 : this->height);
-        const bool abstains = this->pixelVote(column, row) == Vote::Abstain;
+        const bool abstains = this->abstainsAt(column, row);
         content.abstain |= abstains;
         content.background |= !abstains;
       }
@@ -242,18 +231,6 @@ LatticeViews::LatticeViews(const PreparedViews& views, const Lattice& lattice)
   }
 }
 
-Vote LatticeViews::vote(int i, const LatticePoint& p) const
-{
-  const auto h = this->Projections[i](p);
-  if (!(h.W > this->Projections[i].minimumDepth))
-  {
-    return Vote::Abstain;
-  }
-  const PreparedView& view = this->view(i);
-  return view.pixelVote(
-    PreparedView::nearestPixel(h.U / h.W, view.width), PreparedView::nearestPixel(h.V / h.W, view.height));
-}
-
 int LatticeViews::insideVotes(const LatticePoint& p) const
 {
   int background = 0;
@@ -261,6 +238,19 @@ int LatticeViews::insideVotes(const LatticePoint& p) const
   for (int i = 0; i < this->size(); ++i)
   {
     const Vote vote = this->vote(i, p);
+    background += vote == Vote::Background;
+    seen |= vote != Vote::Abstain;
+  }
+  return seen ? this->size() - background : 0;
+}
+
+int LatticeViews::insideVotes(const LatticePoint& p, const ViewsToAsk& ask) const
+{
+  int background = ask.backgroundVotes;
+  bool seen = ask.seen;
+  for (std::size_t n = 0; n < ask.count; ++n)
+  {
+    const Vote vote = this->vote(ask.views[n], p);
     background += vote == Vote::Background;
     seen |= vote != Vote::Abstain;
   }

@@ -64,7 +64,20 @@ struct PreparedView
   /** The silhouette as a whole, top row first, for maps that are made of it; single pixels are asked below. */
   const std::uint8_t* silhouette() const { return this->object.data(); }
   /** The vote of pixel (column, row), which may lie outside the image. */
-  Vote pixelVote(int column, int row) const;
+  Vote pixelVote(int column, int row) const
+  {
+    if (this->inImage(column, column, row, row))
+    {
+      return this->tiles.object(column, row) ? Vote::Object : Vote::Background;
+    }
+    return this->abstainsAt(column, row) ? Vote::Abstain : Vote::Background;
+  }
+  /** Does a pixel outside the image lie beyond a side of which nothing is known? */
+  bool abstainsAt(int column, int row) const
+  {
+    return (column < 0 && this->open[0]) || (column >= this->width && this->open[1]) ||
+      (row < 0 && this->open[2]) || (row >= this->height && this->open[3]);
+  }
   /** What the pixels of the given inclusive ranges hold; ranges may reach outside. An empty range holds nothing. */
   PixelContent content(int firstColumn, int lastColumn, int firstRow, int lastRow) const;
   /** Number of object pixels in [c0, c1) x [r0, r1), which lies within the image. */
@@ -154,9 +167,22 @@ public:
   const PreparedViews& prepared() const { return *this->Views; }
 
   /** What view `i` says of a lattice point: is this corner background in this view? */
-  Vote vote(int i, const LatticePoint& p) const;
+  Vote vote(int i, const LatticePoint& p) const
+  {
+    const LatticeProjection& projection = this->Projections[std::size_t(i)];
+    const auto h = projection(p);
+    if (!(h.W > projection.minimumDepth))
+    {
+      return Vote::Abstain;
+    }
+    const PreparedView& view = this->view(i);
+    return view.pixelVote(
+      PreparedView::nearestPixel(h.U / h.W, view.width), PreparedView::nearestPixel(h.V / h.W, view.height));
+  }
   /** Inside votes of a lattice point: the views that do not call it background; 0 where no view sees it. */
   int insideVotes(const LatticePoint& p) const;
+  /** The same for a point of an octant of which `ask` says whom to ask. */
+  int insideVotes(const LatticePoint& p, const ViewsToAsk& ask) const;
 
 private:
   const PreparedViews* Views;
