@@ -5,6 +5,7 @@
 #include "MarchingCubesTable.h"
 #include "Vectorised.h"
 
+#include <cstring>
 #include <limits>
 
 namespace silhouette
@@ -14,11 +15,20 @@ namespace
 
 constexpr double Infinite = std::numeric_limits<double>::infinity();
 
+/**
+ * The 27 lattice points of an octant and its children, in rows along i of three points and a spare one: the place of
+ * corner c of the octant whose lowest point is at 0.
+ */
+constexpr int gridPlace(int c)
+{
+  return (c & 1) + 4 * (c >> 1 & 1) + 12 * (c >> 2 & 1);
+}
+
 /** Where the corners of an octant in front of the camera come to lie, and the pixels of their bounding box. */
 struct ProjectedOctant
 {
-  double x[8];
-  double y[8];
+  const double* x; ///< of corner c at gridPlace(c)
+  const double* y;
   int firstColumn, lastColumn, firstRow, lastRow;
 };
 
@@ -57,10 +67,10 @@ SILHOUETTE_VECTORISED void makeOutline(const ProjectedOctant& p, Outline& out)
   double ax[12], ay[12], bx[12], by[12];
   for (int e = 0; e < 12; ++e)
   {
-    ax[e] = p.x[edgeCorners[e][0]];
-    ay[e] = p.y[edgeCorners[e][0]];
-    bx[e] = p.x[edgeCorners[e][1]];
-    by[e] = p.y[edgeCorners[e][1]];
+    ax[e] = p.x[gridPlace(edgeCorners[e][0])];
+    ay[e] = p.y[gridPlace(edgeCorners[e][0])];
+    bx[e] = p.x[gridPlace(edgeCorners[e][1])];
+    by[e] = p.y[gridPlace(edgeCorners[e][1])];
   }
   for (int e = 0; e < 12; ++e)
   {
@@ -159,8 +169,8 @@ ViewRelation relatePolygon(const PreparedView& view, const ProjectedOctant& p)
  */
 ViewRelation relatePolygonInImage(const PreparedView& view, const ProjectedOctant& p)
 {
-  const auto column = [&](int c) { return int(p.x[c] + 0.5); };
-  const auto row = [&](int c) { return int(p.y[c] + 0.5); };
+  const auto column = [&](int c) { return int(p.x[gridPlace(c)] + 0.5); };
+  const auto row = [&](int c) { return int(p.y[gridPlace(c)] + 0.5); };
   const bool object = view.objectInImage(column(0), row(0));
   for (int c = 1; c < 8; ++c)
   {
@@ -202,7 +212,8 @@ ViewRelation relatePolygonInWindow(
   std::uint64_t corners = 0;
   for (int c = 0; c < 8; ++c)
   {
-    corners |= std::uint64_t(1) << (8 * (int(p.y[c] + 0.5) - p.firstRow) + int(p.x[c] + 0.5) - p.firstColumn);
+    const int row = int(p.y[gridPlace(c)] + 0.5) - p.firstRow, column = int(p.x[gridPlace(c)] + 0.5) - p.firstColumn;
+    corners |= std::uint64_t(1) << (8 * row + column);
   }
   const bool object = (corners & objects) != 0;
   if (object && (corners & ~objects) != 0)
@@ -258,7 +269,7 @@ ViewRelation relateProjected(const PreparedView& view, const ProjectedOctant& p,
 ViewRelation relateInStages(
   const PreparedView& view, const LatticeProjection& projection, const OctantBox& octant, bool polygon)
 {
-  ProjectedOctant p;
+  double x[18], y[18];
   double leastW = Infinite, greatestW = -Infinite;
   double leastX = Infinite, greatestX = -Infinite, leastY = Infinite, greatestY = -Infinite;
   for (int c = 0; c < 8; ++c)
@@ -266,14 +277,15 @@ ViewRelation relateInStages(
     const LatticePoint d = cornerOffset(c);
     const auto& o = octant.lowest;
     const auto h = projection({ o.i + d.i * octant.size, o.j + d.j * octant.size, o.k + d.k * octant.size });
-    p.x[c] = h.U / h.W;
-    p.y[c] = h.V / h.W;
+    const double u = h.U / h.W, v = h.V / h.W;
+    x[gridPlace(c)] = u;
+    y[gridPlace(c)] = v;
     leastW = std::min(leastW, h.W);
     greatestW = std::max(greatestW, h.W);
-    leastX = std::min(leastX, p.x[c]);
-    greatestX = std::max(greatestX, p.x[c]);
-    leastY = std::min(leastY, p.y[c]);
-    greatestY = std::max(greatestY, p.y[c]);
+    leastX = std::min(leastX, u);
+    greatestX = std::max(greatestX, u);
+    leastY = std::min(leastY, v);
+    greatestY = std::max(greatestY, v);
   }
   // A margin, so that no lattice point of the octant is on the other side by rounding.
   const double margin = 1e-6 * projection.minimumDepth;
@@ -281,130 +293,109 @@ ViewRelation relateInStages(
   {
     return greatestW < projection.minimumDepth - margin ? ViewRelation::Abstain : ViewRelation::Mixed;
   }
-  p.firstColumn = PreparedView::nearestPixel(leastX - OctantGuard, view.width);
-  p.lastColumn = PreparedView::nearestPixel(greatestX + OctantGuard, view.width);
-  p.firstRow = PreparedView::nearestPixel(leastY - OctantGuard, view.height);
-  p.lastRow = PreparedView::nearestPixel(greatestY + OctantGuard, view.height);
+  const ProjectedOctant p{ x, y, PreparedView::nearestPixel(leastX - OctantGuard, view.width),
+    PreparedView::nearestPixel(greatestX + OctantGuard, view.width),
+    PreparedView::nearestPixel(leastY - OctantGuard, view.height),
+    PreparedView::nearestPixel(greatestY + OctantGuard, view.height) };
   return relateProjected(view, p, polygon);
 }
 
-/** The 27 lattice points that the children of an octant share: point i + 3 j + 9 k. The last value is spare. */
+/** Four numbers that are worked on together; by reference alone, since how they are passed depends on the machine. */
+using Lanes = double __attribute__((vector_size(32)));
+using Pixels = std::int32_t __attribute__((vector_size(16)));
+
+/** The children's lattice points: row j + 3 k holds three and a spare one, which is the third again. */
 struct ChildGrid
 {
-  double x[28], y[28];
+  Lanes x[9], y[9];
   double leastW;
 };
 
 /** For each child the bounding box's pixels. */
 struct ChildBoxes
 {
-  int firstColumn[8], lastColumn[8], firstRow[8], lastRow[8];
+  std::int32_t firstColumn[8], lastColumn[8], firstRow[8], lastRow[8];
 };
 
 /**
  * One coordinate of the grid: the sums of LatticeProjection in its own order, so that each point gets the bits that
  * it gets there.
  */
-inline void projectCoordinate(
-  double constant, double stepI, double stepJ, double stepK, const OctantBox& parent, double values[28])
+inline void projectCoordinate(const LatticeProjection& p, int row, const OctantBox& parent, Lanes (&values)[9])
 {
+  const auto& o = parent.lowest;
   const std::int32_t half = parent.size / 2;
-  double plane[9];
+  const Lanes i = { double(o.i), double(o.i + half), double(o.i + 2 * half), double(o.i + 2 * half) };
+  const Lanes start = p.constant[row] + p.step[0][row] * i;
   for (int j = 0; j < 3; ++j)
   {
-    for (int i = 0; i < 3; ++i)
+    const Lanes plane = start + p.step[1][row] * double(o.j + j * half);
+    for (int k = 0; k < 3; ++k)
     {
-      plane[3 * j + i] =
-        (constant + stepI * double(parent.lowest.i + i * half)) + stepJ * double(parent.lowest.j + j * half);
+      values[j + 3 * k] = plane + p.step[2][row] * double(o.k + k * half);
     }
   }
-  for (int k = 0; k < 3; ++k)
-  {
-    const double along = stepK * double(parent.lowest.k + k * half);
-    for (int n = 0; n < 9; ++n)
-    {
-      values[9 * k + n] = plane[n] + along;
-    }
-  }
-  values[27] = values[26];
 }
 
-inline double smaller(double a, double b)
+struct Smaller
 {
-  return b < a ? b : a;
-}
+  static void of(const Lanes& a, const Lanes& b, Lanes& result) { result = a < b ? a : b; }
+};
 
-inline double larger(double a, double b)
+struct Larger
 {
-  return a < b ? b : a;
-}
+  static void of(const Lanes& a, const Lanes& b, Lanes& result) { result = a > b ? a : b; }
+};
 
-/** For each child the least (or greatest, by `pick`) of its eight corners' values, one axis after another. */
-template <typename Pick> inline void overCorners(const double values[28], const Pick& pick, double result[8])
+/** The nearest pixels of the children's least (or greatest) coordinates, moved outward by the guard. */
+template <typename Pick>
+inline void boundPixels(const Lanes (&values)[9], double guard, int size, std::int32_t (&pixels)[8])
 {
-  double planes[18], rows[12];
-  for (int n = 0; n < 18; ++n)
+  Lanes planes[6], rows[4];
+  for (int n = 0; n < 6; ++n)
   {
-    planes[n] = pick(values[n], values[n + 9]);
-  }
-  for (int k = 0; k < 2; ++k)
-  {
-    for (int n = 0; n < 6; ++n)
-    {
-      rows[6 * k + n] = pick(planes[9 * k + n], planes[9 * k + n + 3]);
-    }
+    Pick::of(values[n], values[n + 3], planes[n]);
   }
   for (int n = 0; n < 4; ++n)
   {
-    result[2 * n] = pick(rows[3 * n], rows[3 * n + 1]);
-    result[2 * n + 1] = pick(rows[3 * n + 1], rows[3 * n + 2]);
+    const int first = n / 2 * 3 + n % 2;
+    Pick::of(planes[first], planes[first + 1], rows[n]);
   }
-}
-
-inline void nearestPixels(const double values[8], double guard, int size, int pixels[8])
-{
-  for (int c = 0; c < 8; ++c)
+  for (int k = 0; k < 2; ++k)
   {
-    const double shifted = (values[c] + guard) + 0.5;
-    const double low = shifted >= 0.0 ? shifted : -1.0; // of what is behind the camera: anything but no number
-    pixels[c] = int(low >= size ? double(size) : low);
+    const Lanes& a = rows[2 * k];
+    const Lanes& b = rows[2 * k + 1];
+    const Lanes left = { a[0], a[1], b[0], b[1] }, right = { a[1], a[2], b[1], b[2] };
+    Lanes bound;
+    Pick::of(left, right, bound);
+    const Lanes outside = { -1.0, -1.0, -1.0, -1.0 }, end = Lanes{} + double(size);
+    bound = (bound + guard) + 0.5;
+    bound = bound >= 0.0 ? bound : outside; // so is what is behind the camera and no number at all
+    bound = bound >= end ? end : bound;
+    const Pixels nearest = __builtin_convertvector(bound, Pixels);
+    std::memcpy(&pixels[4 * k], &nearest, sizeof(nearest));
   }
 }
 
 SILHOUETTE_VECTORISED void projectChildren(const PreparedView& view, const LatticeProjection& projection,
   const OctantBox& parent, ChildGrid& grid, ChildBoxes& boxes)
 {
-  const auto& q = projection;
-  double U[28], V[28], W[28];
-  projectCoordinate(q.constant[0], q.step[0][0], q.step[1][0], q.step[2][0], parent, U);
-  projectCoordinate(q.constant[1], q.step[0][1], q.step[1][1], q.step[2][1], parent, V);
-  projectCoordinate(q.constant[2], q.step[0][2], q.step[1][2], q.step[2][2], parent, W);
-  double leastW[4] = { W[0], W[1], W[2], W[3] };
-  for (int n = 0; n < 28; n += 4)
+  Lanes U[9], V[9], W[9];
+  projectCoordinate(projection, 0, parent, U);
+  projectCoordinate(projection, 1, parent, V);
+  projectCoordinate(projection, 2, parent, W);
+  Lanes least = W[0];
+  for (int n = 0; n < 9; ++n)
   {
-    for (int lane = 0; lane < 4; ++lane)
-    {
-      leastW[lane] = smaller(leastW[lane], W[n + lane]);
-      grid.x[n + lane] = U[n + lane] / W[n + lane];
-      grid.y[n + lane] = V[n + lane] / W[n + lane];
-    }
+    Smaller::of(W[n], least, least);
+    grid.x[n] = U[n] / W[n];
+    grid.y[n] = V[n] / W[n];
   }
-  grid.leastW = smaller(smaller(leastW[0], leastW[1]), smaller(leastW[2], leastW[3]));
-  double bound[8];
-  overCorners(grid.x, smaller, bound);
-  nearestPixels(bound, -OctantGuard, view.width, boxes.firstColumn);
-  overCorners(grid.x, larger, bound);
-  nearestPixels(bound, OctantGuard, view.width, boxes.lastColumn);
-  overCorners(grid.y, smaller, bound);
-  nearestPixels(bound, -OctantGuard, view.height, boxes.firstRow);
-  overCorners(grid.y, larger, bound);
-  nearestPixels(bound, OctantGuard, view.height, boxes.lastRow);
-}
-
-/** Point of the grid that is corner 0 of child c, and of the other corners from there. */
-constexpr int gridOffset(int c)
-{
-  return (c & 1) + 3 * (c >> 1 & 1) + 9 * (c >> 2 & 1);
+  grid.leastW = std::min(std::min(least[0], least[1]), least[2]);
+  boundPixels<Smaller>(grid.x, -OctantGuard, view.width, boxes.firstColumn);
+  boundPixels<Larger>(grid.x, OctantGuard, view.width, boxes.lastColumn);
+  boundPixels<Smaller>(grid.y, -OctantGuard, view.height, boxes.firstRow);
+  boundPixels<Larger>(grid.y, OctantGuard, view.height, boxes.lastRow);
 }
 
 } // namespace
@@ -438,16 +429,10 @@ void relateChildren(const PreparedView& view, const LatticeProjection& projectio
       relations[child] = relate(view, projection, { { o.i + d.i * half, o.j + d.j * half, o.k + d.k * half }, half });
       continue;
     }
-    ProjectedOctant p;
-    for (int c = 0; c < 8; ++c)
-    {
-      p.x[c] = grid.x[gridOffset(child) + gridOffset(c)];
-      p.y[c] = grid.y[gridOffset(child) + gridOffset(c)];
-    }
-    p.firstColumn = boxes.firstColumn[child];
-    p.lastColumn = boxes.lastColumn[child];
-    p.firstRow = boxes.firstRow[child];
-    p.lastRow = boxes.lastRow[child];
+    const auto* x = reinterpret_cast<const double*>(grid.x) + gridPlace(child);
+    const auto* y = reinterpret_cast<const double*>(grid.y) + gridPlace(child);
+    const ProjectedOctant p{ x, y, boxes.firstColumn[child], boxes.lastColumn[child], boxes.firstRow[child],
+      boxes.lastRow[child] };
     relations[child] = relateProjected(view, p, true);
   }
 }
