@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Carving.h"
 
+#include "Bits.h"
 #include "OctantTest.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -17,8 +19,6 @@ using ViewList = std::vector<std::uint16_t>;
 /** What the descendants of an octant inherit. */
 struct Inheritance
 {
-  std::size_t firstView = 0;         ///< into the list of views that are still undecided about the octant
-  std::uint16_t viewCount = 0;
   std::uint16_t backgroundVotes = 0; ///< views that call all of the octant background
   bool seen = false;                 ///< some view sees all of the octant
 };
@@ -28,20 +28,31 @@ struct Front
 {
   std::vector<std::uint64_t> code;
   std::vector<Inheritance> inheritance;
+  std::vector<std::size_t> viewEnd; ///< where its views that are still undecided end
   ViewList views;
+
+  std::size_t size() const { return this->code.size(); }
+  std::size_t viewBegin(std::size_t i) const { return i == 0 ? 0 : this->viewEnd[i - 1]; }
 };
 
-/** What one range of tests adds to a generation. */
+/** What one range of tests adds to the front, and counts. */
 struct Part
 {
-  std::vector<std::uint64_t> code;
-  std::vector<OctantState> state;
   Front front;
   std::uint64_t viewTests = 0;
   std::vector<std::uint64_t> carvedByView;
 };
 
-/** Tests single octants; holds nothing that changes. */
+/** An octant in the making: what the views have said of it so far. */
+struct Trial
+{
+  Inheritance own;
+  int mixed = 0;
+  std::size_t viewCount = 0;
+  bool carved = false;
+};
+
+/** Tests octants; holds nothing that changes. */
 class OctantTester
 {
 public:
@@ -53,67 +64,103 @@ public:
   {
   }
 
-  /** Test octant `code`, given its parent's inheritance and list of views, and add it to `part`. */
-  void operator()(std::uint64_t code, const Inheritance& inherited, const std::uint16_t* views, Part& part) const
+  /** Test the root of a tree. */
+  OctantState root(std::uint64_t code, const ViewList& views, Part& part) const
   {
-    const LatticePoint p = fromMorton(code);
-    const OctantBox octant{ { p.i * this->Size, p.j * this->Size, p.k * this->Size }, this->Size };
-    Inheritance own = inherited;
-    own.firstView = part.front.views.size();
-    int mixed = 0;
-    for (int n = 0; n < inherited.viewCount; ++n)
+    Trial trial;
+    std::vector<std::uint16_t> undecided(views.size());
+    const OctantBox octant{ this->lowest(code, this->Size), this->Size };
+    for (std::size_t n = 0; n < views.size() && !trial.carved; ++n)
+    {
+      ++part.viewTests;
+      this->hear(views[n], relate(this->Views.view(views[n]), this->Views.projection(views[n]), octant), trial,
+        undecided.data(), part);
+    }
+    return this->settle(code, trial, undecided.data(), part);
+  }
+
+  /** Test the eight children of an octant, given what they inherit and the views that are undecided about it. */
+  void children(std::uint64_t parent, const Inheritance& inherited, const std::uint16_t* views, std::size_t viewCount,
+    OctantState* states, Part& part) const
+  {
+    std::array<Trial, 8> trials;
+    trials.fill({ inherited, 0, 0, false });
+    thread_local std::vector<std::uint16_t> undecided;
+    undecided.resize(std::max(undecided.size(), 8 * viewCount));
+    const OctantBox box{ this->lowest(parent, 2 * this->Size), 2 * this->Size };
+    std::array<ViewRelation, 8> relations;
+    unsigned left = 0xffu;
+    for (std::size_t n = 0; n < viewCount && left != 0; ++n)
     {
       const std::uint16_t view = views[n];
-      ++part.viewTests;
-      const auto relation = relate(this->Views.view(view), this->Views.projection(view), octant);
-      own.seen |= relation == ViewRelation::Inside || relation == ViewRelation::Background;
-      if (relation == ViewRelation::Background && ++own.backgroundVotes > this->BackgroundVotes)
+      relateChildren(this->Views.view(view), this->Views.projection(view), box, left, relations);
+      part.viewTests += std::uint64_t(countBits(left));
+      for (unsigned children = left; children != 0; children &= children - 1)
       {
-        ++part.carvedByView[view];
-        this->add(code, OctantState::Background, own, part);
-        return;
-      }
-      if (relation == ViewRelation::Mixed || relation == ViewRelation::Partial)
-      {
-        mixed += relation == ViewRelation::Mixed;
-        part.front.views.push_back(view);
+        const int c = lowestBit(children);
+        this->hear(view, relations[c], trials[c], &undecided[c * viewCount], part);
+        left &= ~(unsigned(trials[c].carved) << c);
       }
     }
-    own.viewCount = std::uint16_t(part.front.views.size() - own.firstView);
-    this->add(code, this->judge(octant, own, mixed), own, part);
+    for (unsigned c = 0; c < 8; ++c)
+    {
+      states[c] = this->settle(parent << 3 | c, trials[c], &undecided[c * viewCount], part);
+    }
   }
 
 private:
-  OctantState judge(const OctantBox& octant, const Inheritance& own, int mixed) const
+  LatticePoint lowest(std::uint64_t code, std::int32_t size) const
   {
-    if (!own.seen && own.viewCount == 0)
+    const LatticePoint p = fromMorton(code);
+    return { p.i * size, p.j * size, p.k * size };
+  }
+
+  /** One more view has spoken. */
+  void hear(std::uint16_t view, ViewRelation relation, Trial& trial, std::uint16_t* undecided, Part& part) const
+  {
+    trial.own.seen |= relation == ViewRelation::Inside || relation == ViewRelation::Background;
+    if (relation == ViewRelation::Background && ++trial.own.backgroundVotes > this->BackgroundVotes)
+    {
+      ++part.carvedByView[view];
+      trial.carved = true;
+    }
+    else if (relation == ViewRelation::Mixed || relation == ViewRelation::Partial)
+    {
+      trial.mixed += relation == ViewRelation::Mixed;
+      undecided[trial.viewCount++] = view;
+    }
+  }
+
+  /** All have: the octant's state, and its place in the front where it is to be subdivided. */
+  OctantState settle(std::uint64_t code, const Trial& trial, const std::uint16_t* undecided, Part& part) const
+  {
+    const OctantState state = this->judge(code, trial);
+    if (state == OctantState::Intersection && this->Generation < this->Views.lattice().depth)
+    {
+      Front& front = part.front;
+      front.code.push_back(code);
+      front.inheritance.push_back(trial.own);
+      front.views.insert(front.views.end(), undecided, undecided + trial.viewCount);
+      front.viewEnd.push_back(front.views.size());
+    }
+    return state;
+  }
+
+  OctantState judge(std::uint64_t code, const Trial& trial) const
+  {
+    if (trial.carved || (!trial.own.seen && trial.viewCount == 0))
     {
       return OctantState::Background; // a point that no view sees is outside
     }
-    const bool inside = own.seen && mixed + own.backgroundVotes <= this->BackgroundVotes && !this->onBorder(octant);
-    return inside ? OctantState::Inside : OctantState::Intersection;
+    const bool few = trial.mixed + trial.own.backgroundVotes <= this->BackgroundVotes;
+    return trial.own.seen && few && !this->onBorder(fromMorton(code)) ? OctantState::Inside
+                                                                      : OctantState::Intersection;
   }
 
-  bool onBorder(const OctantBox& octant) const
+  bool onBorder(const LatticePoint& p) const
   {
-    const std::int32_t last = this->Views.lattice().cells() - octant.size;
-    const auto& o = octant.lowest;
-    return o.i == 0 || o.j == 0 || o.k == 0 || o.i == last || o.j == last || o.k == last;
-  }
-
-  void add(std::uint64_t code, OctantState state, const Inheritance& own, Part& part) const
-  {
-    part.code.push_back(code);
-    part.state.push_back(state);
-    if (state == OctantState::Intersection && this->Generation < this->Views.lattice().depth)
-    {
-      part.front.code.push_back(code);
-      part.front.inheritance.push_back(own);
-    }
-    else
-    {
-      part.front.views.resize(own.firstView);
-    }
+    const std::int32_t last = (std::int32_t(1) << this->Generation) - 1;
+    return p.i == 0 || p.j == 0 || p.k == 0 || p.i == last || p.j == last || p.k == last;
   }
 
   const LatticeViews& Views;
@@ -122,29 +169,61 @@ private:
   std::int32_t Size;
 };
 
-/** Put the parts of a generation together, in order. */
-void gather(const std::vector<Part>& parts, Generation& generation, Front& front)
+/** Put the fronts of the parts together, in order: count, then copy side by side. */
+Front gather(std::vector<Part>& parts, Execution& execution)
 {
-  std::uint32_t blocks = 0;
-  for (const auto& part : parts)
+  std::vector<std::size_t> octants(parts.size() + 1, 0), views(parts.size() + 1, 0);
+  for (std::size_t p = 0; p < parts.size(); ++p)
   {
-    generation.code.insert(generation.code.end(), part.code.begin(), part.code.end());
-    generation.state.insert(generation.state.end(), part.state.begin(), part.state.end());
-    const std::size_t offset = front.views.size();
-    front.code.insert(front.code.end(), part.front.code.begin(), part.front.code.end());
-    front.views.insert(front.views.end(), part.front.views.begin(), part.front.views.end());
-    for (auto inheritance : part.front.inheritance)
+    octants[p + 1] = octants[p] + parts[p].front.size();
+    views[p + 1] = views[p] + parts[p].front.views.size();
+  }
+  Front front;
+  front.code.resize(octants.back());
+  front.inheritance.resize(octants.back());
+  front.viewEnd.resize(octants.back());
+  front.views.resize(views.back());
+  execution.forRanges(parts.size(), 1,
+    [&](std::size_t first, std::size_t last)
     {
-      inheritance.firstView += offset;
-      front.inheritance.push_back(inheritance);
-    }
-  }
-  generation.childBlock.reserve(generation.size());
-  for (const OctantState state : generation.state)
+      for (std::size_t p = first; p < last; ++p)
+      {
+        const Front from = std::move(parts[p].front);
+        std::copy(from.code.begin(), from.code.end(), front.code.begin() + octants[p]);
+        std::copy(from.inheritance.begin(), from.inheritance.end(), front.inheritance.begin() + octants[p]);
+        std::copy(from.views.begin(), from.views.end(), front.views.begin() + views[p]);
+        std::transform(from.viewEnd.begin(), from.viewEnd.end(), front.viewEnd.begin() + octants[p],
+          [&](std::size_t end) { return end + views[p]; });
+      }
+    });
+  return front;
+}
+
+void numberChildren(Generation& generation)
+{
+  generation.childBlock.resize(generation.size());
+  std::uint32_t blocks = 0;
+  for (std::size_t i = 0; i < generation.size(); ++i)
   {
-    generation.childBlock.push_back(blocks);
-    blocks += state == OctantState::Intersection;
+    generation.childBlock[i] = blocks;
+    blocks += generation.state[i] == OctantState::Intersection;
   }
+}
+
+/** What the last front knew, kept for those who ask about corners. */
+UndecidedViews keep(Front& front)
+{
+  UndecidedViews kept;
+  kept.views = std::move(front.views);
+  kept.first.reserve(front.size() + 1);
+  kept.first.push_back(0);
+  kept.first.insert(kept.first.end(), front.viewEnd.begin(), front.viewEnd.end());
+  for (const Inheritance& inheritance : front.inheritance)
+  {
+    kept.backgroundVotes.push_back(inheritance.backgroundVotes);
+    kept.seen.push_back(inheritance.seen);
+  }
+  return kept;
 }
 
 /** Grows an octree; `views` may leave some views of the capture out. */
@@ -164,32 +243,46 @@ public:
   {
     const int depth = octree.lattice.depth;
     octree.generations.resize(std::size_t(depth) + 1);
-    Front front;
-    this->test(octree, octree.treeGeneration, trees.size(), front,
-      [&](std::size_t i, const OctantTester& test, Part& part)
-      { test(trees[i], Inheritance{ 0, std::uint16_t(this->Used.size()), 0, false }, this->Used.data(), part); });
+    Generation& roots = octree.generations[octree.treeGeneration];
+    roots.code = trees;
+    roots.state.resize(trees.size());
+    Front front = this->test(octree, octree.treeGeneration, trees.size(),
+      [&](std::size_t i, const OctantTester& tester, Part& part)
+      { roots.state[i] = tester.root(trees[i], this->Used, part); });
     for (int g = octree.treeGeneration + 1; g <= depth; ++g)
     {
-      const Front parents = std::move(front);
-      front = Front();
-      this->test(octree, g, 8 * parents.code.size(), front,
-        [&](std::size_t i, const OctantTester& test, Part& part)
+      Front parents = std::move(front);
+      Generation& generation = octree.generations[g];
+      generation.code.resize(8 * parents.size());
+      generation.state.resize(8 * parents.size());
+      front = this->test(octree, g, parents.size(),
+        [&](std::size_t i, const OctantTester& tester, Part& part)
         {
-          const Inheritance& inheritance = parents.inheritance[i / 8];
-          test(parents.code[i / 8] << 3 | (i & 7), inheritance, parents.views.data() + inheritance.firstView, part);
+          for (unsigned c = 0; c < 8; ++c)
+          {
+            generation.code[8 * i + c] = parents.code[i] << 3 | c;
+          }
+          const std::size_t begin = parents.viewBegin(i);
+          tester.children(parents.code[i], parents.inheritance[i], parents.views.data() + begin,
+            parents.viewEnd[i] - begin, &generation.state[8 * i], part);
         });
+      if (g == depth)
+      {
+        octree.undecided = keep(parents);
+      }
     }
     octree.statistics.carvedByView = this->Carved;
   }
 
 private:
+  /** Run `testOne` for the roots, or the parents, of generation g; the front that comes of it. */
   template <typename TestOne>
-  void test(Octree& octree, int g, std::size_t count, Front& front, const TestOne& testOne)
+  Front test(Octree& octree, int g, std::size_t count, const TestOne& testOne)
   {
-    constexpr std::size_t PartSize = 2048; // fixed: the parts, and so the bytes, do not depend on the threads
+    constexpr std::size_t PartSize = 256; // fixed: the parts, and so the bytes, do not depend on the threads
     const OctantTester tester(this->Views, this->BackgroundVotes, g);
     std::vector<Part> parts((count + PartSize - 1) / PartSize);
-    const std::size_t batch = std::size_t(std::max(1, this->Exec.threads())) * 16;
+    const std::size_t batch = std::size_t(std::max(1, this->Exec.threads())) * 64;
     const double weight = std::ldexp(1.0, 2 * (g - octree.lattice.depth));
     for (std::size_t done = 0; done < parts.size(); done += batch)
     {
@@ -209,14 +302,15 @@ private:
       this->Exec.checkpoint(weight * (0.25 + 0.75 * double(done + n) / double(parts.size())));
     }
     this->countParts(parts, g, octree);
-    gather(parts, octree.generations[g], front);
+    numberChildren(octree.generations[g]);
+    return gather(parts, this->Exec);
   }
 
   void countParts(const std::vector<Part>& parts, int g, Octree& octree)
   {
+    octree.statistics.octantsTested += octree.generations[g].size();
     for (const auto& part : parts)
     {
-      octree.statistics.octantsTested += part.code.size();
       octree.statistics.viewTests += part.viewTests;
       for (int view = 0; view < this->Views.size(); ++view)
       {
@@ -361,6 +455,7 @@ Octree mergeTrees(const std::vector<Octree>& parts)
     throw InvalidInput("no parts of an octree to merge");
   }
   Octree whole = parts.front();
+  whole.undecided = UndecidedViews();
   whole.statistics = CarveStatistics();
   whole.statistics.carvedByView.assign(std::size_t(whole.viewCount), 0.0);
   for (const auto& part : parts)

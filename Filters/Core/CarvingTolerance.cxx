@@ -47,9 +47,9 @@ BinaryImage dilated(const PreparedView& view, int radius)
   }
   const auto within = [&](int column, int row, int width, int height)
   {
-    const int c0 = std::max(0, column - width), c1 = std::min(view.width, column + width + 1);
-    const int r0 = std::max(0, row - height), r1 = std::min(view.height, row + height + 1);
-    return r0 < r1 && view.objectPixels(c0, c1, r0, r1) > 0;
+    const int c0 = std::max(0, column - width), c1 = std::min(view.width - 1, column + width);
+    const int r0 = std::max(0, row - height), r1 = std::min(view.height - 1, row + height);
+    return r0 <= r1 && view.contentInImage(c0, c1, r0, r1).object;
   };
   const auto& box = view.objectBox;
   for (int row = std::max(0, box[2] - radius); row <= std::min(view.height - 1, box[3] + radius); ++row)

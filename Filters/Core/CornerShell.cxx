@@ -1,32 +1,258 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CornerShell.h"
 
+#include "Bits.h"
+#include "RadixSort.h"
+
 #include <algorithm>
+#include <numeric>
 
 namespace silhouette
 {
 namespace
 {
 
-constexpr std::size_t BlockSize = 4096;
-
-/** Corners of one block of cells: neighbours in Morton order share most of theirs. */
-std::vector<std::uint64_t> cornersOfBlock(const CornerShell& shell, std::size_t first, std::size_t last)
+/**
+ * Lattice points or cells of one block of 4 x 4 x 4, whose codes differ in their six lowest bits alone: bit n of
+ * `bits` is the one of code 64 block + n.
+ */
+struct Word
 {
-  std::vector<std::uint64_t> corners;
-  corners.reserve(8 * (last - first));
-  for (std::size_t cell = first; cell < last; ++cell)
+  std::uint64_t block = 0;
+  std::uint64_t bits = 0;
+};
+
+/** The points of a block whose coordinate on `axis`, 0 to 3 within it, is `value`. */
+constexpr std::uint64_t slab(int axis, int value)
+{
+  std::uint64_t bits = 0;
+  for (int n = 0; n < 64; ++n)
   {
-    const LatticePoint p = fromMorton(shell.cells[cell]);
-    for (int c = 0; c < 8; ++c)
+    if (((n >> axis & 1) | (n >> (axis + 3) & 1) << 1) == value)
     {
-      corners.push_back(mortonCode(p + cornerOffset(c)));
+      bits |= std::uint64_t(1) << n;
     }
   }
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return bits;
+}
+
+constexpr std::uint64_t slabs[3][4] = { { slab(0, 0), slab(0, 1), slab(0, 2), slab(0, 3) },
+  { slab(1, 0), slab(1, 1), slab(1, 2), slab(1, 3) }, { slab(2, 0), slab(2, 1), slab(2, 2), slab(2, 3) } };
+
+/**
+ * The corners of a block's cells, in the block itself and, bit d of the index for a step on axis d, in the blocks
+ * beyond.
+ */
+std::array<std::uint64_t, 8> cornersOf(std::uint64_t cells)
+{
+  std::array<std::uint64_t, 8> corners{ cells };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int unit = 1 << axis;
+    for (int n = 0; n < unit; ++n)
+    {
+      const std::uint64_t bits = corners[n];
+      const std::uint64_t within =
+        (bits & (slabs[axis][0] | slabs[axis][2])) << unit | (bits & slabs[axis][1]) << 7 * unit;
+      corners[n] = bits | within;
+      corners[n | unit] = (bits & slabs[axis][3]) >> 9 * unit;
+    }
+  }
   return corners;
 }
+
+/** Morton code of the block one step further on each axis whose bit is set in `steps`. */
+std::uint64_t blockBeyond(std::uint64_t block, int steps)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (steps >> axis & 1)
+    {
+      const std::uint64_t mine = 0x1249249249249249ULL << axis;
+      block = (((block | ~mine) + 1) & mine) | (block & ~mine);
+    }
+  }
+  return block;
+}
+
+/** Where corner c of the n-th cell of a block is: 64 times the block it is in (as cornersOf) and its bit there. */
+struct CornerPlaces
+{
+  std::uint16_t at[64][8];
+  CornerPlaces()
+  {
+    for (int n = 0; n < 64; ++n)
+    {
+      for (int c = 0; c < 8; ++c)
+      {
+        const LatticePoint p = fromMorton(std::uint64_t(n)) + cornerOffset(c);
+        const int beyond = (p.i >> 2) | (p.j >> 2) << 1 | (p.k >> 2) << 2;
+        at[n][c] = std::uint16_t(64 * beyond + int(mortonCode({ p.i & 3, p.j & 3, p.k & 3 })));
+      }
+    }
+  }
+};
+
+/** A cell block's share in a block of corners. */
+struct Share
+{
+  Word corners;
+  std::uint32_t source = 0; ///< eight times the number of the cell block, and the index of cornersOf
+};
+
+/** Makes a shell block by block: whole words of cells become words of corners. */
+class ShellMaker
+{
+public:
+  ShellMaker(CornerShell& shell, Execution& execution)
+    : Shell(shell)
+    , Exec(execution)
+  {
+  }
+
+  void make()
+  {
+    this->blockCells();
+    std::vector<Share> shares = this->shareCorners();
+    this->joinShares(shares);
+    shares = std::vector<Share>();
+    this->nameCorners();
+    this->nameCellCorners();
+  }
+
+private:
+  template <typename Work>
+  void forBlocks(std::size_t count, const Work& work)
+  {
+    this->Exec.forRanges(count, 1024,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t b = first; b < last; ++b)
+        {
+          work(b);
+        }
+      });
+  }
+
+  void blockCells()
+  {
+    const auto& cells = this->Shell.cells;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+    {
+      if (i == 0 || cells[i] >> 6 != this->Cells.back().block)
+      {
+        this->Cells.push_back({ cells[i] >> 6, 0 });
+        this->FirstCell.push_back(i);
+      }
+      this->Cells.back().bits |= std::uint64_t(1) << (cells[i] & 63);
+    }
+    this->FirstCell.push_back(cells.size());
+  }
+
+  /** All shares in blocks of corners, sorted by block. */
+  std::vector<Share> shareCorners()
+  {
+    std::vector<std::size_t> end(this->Cells.size() + 1, 0);
+    this->forBlocks(this->Cells.size(),
+      [&](std::size_t b)
+      {
+        for (const std::uint64_t bits : cornersOf(this->Cells[b].bits))
+        {
+          end[b + 1] += bits != 0;
+        }
+      });
+    std::partial_sum(end.begin(), end.end(), end.begin());
+    std::vector<Share> shares(end.back());
+    this->forBlocks(this->Cells.size(),
+      [&](std::size_t b)
+      {
+        std::size_t at = end[b];
+        const auto corners = cornersOf(this->Cells[b].bits);
+        for (int n = 0; n < 8; ++n)
+        {
+          if (corners[n] != 0)
+          {
+            shares[at++] = { { blockBeyond(this->Cells[b].block, n), corners[n] }, std::uint32_t(8 * b + n) };
+          }
+        }
+      });
+    const std::uint64_t highest = shares.empty() ? 0 : blockBeyond(this->Cells.back().block, 7);
+    radixSort(shares, highest == 0 ? 0 : highestBit(highest) + 1, [](const Share& s) { return s.corners.block; });
+    return shares;
+  }
+
+  void joinShares(const std::vector<Share>& shares)
+  {
+    this->Corners.reserve(shares.size() / 2);
+    this->Target.resize(8 * this->Cells.size());
+    for (const Share& share : shares)
+    {
+      if (this->Corners.empty() || this->Corners.back().block != share.corners.block)
+      {
+        this->Corners.push_back({ share.corners.block, 0 });
+      }
+      this->Corners.back().bits |= share.corners.bits;
+      this->Target[share.source] = std::uint32_t(this->Corners.size() - 1);
+    }
+    this->FirstCorner.resize(this->Corners.size() + 1, 0);
+    for (std::size_t b = 0; b < this->Corners.size(); ++b)
+    {
+      this->FirstCorner[b + 1] = this->FirstCorner[b] + std::uint32_t(countBits(this->Corners[b].bits));
+    }
+  }
+
+  void nameCorners()
+  {
+    this->Shell.corners.resize(this->FirstCorner.back());
+    this->forBlocks(this->Corners.size(),
+      [&](std::size_t b)
+      {
+        std::size_t at = this->FirstCorner[b];
+        for (std::uint64_t bits = this->Corners[b].bits; bits != 0; bits &= bits - 1)
+        {
+          this->Shell.corners[at++] = this->Corners[b].block << 6 | std::uint64_t(lowestBit(bits));
+        }
+      });
+  }
+
+  void nameCellCorners()
+  {
+    static const CornerPlaces places;
+    this->Shell.cellCorners.resize(this->Shell.cells.size());
+    this->forBlocks(this->Cells.size(),
+      [&](std::size_t b)
+      {
+        std::array<std::uint32_t, 512> index; // of the corners that this block's cells have, by place
+        const auto corners = cornersOf(this->Cells[b].bits);
+        for (std::size_t n = 0; n < 8; ++n)
+        {
+          const std::uint32_t target = corners[n] != 0 ? this->Target[8 * b + n] : 0;
+          for (std::uint64_t bits = corners[n]; bits != 0; bits &= bits - 1)
+          {
+            const int bit = lowestBit(bits);
+            const std::uint64_t before = this->Corners[target].bits & ((std::uint64_t(1) << bit) - 1);
+            index[64 * n + bit] = this->FirstCorner[target] + std::uint32_t(countBits(before));
+          }
+        }
+        for (std::size_t cell = this->FirstCell[b]; cell < this->FirstCell[b + 1]; ++cell)
+        {
+          const auto& at = places.at[this->Shell.cells[cell] & 63];
+          for (int c = 0; c < 8; ++c)
+          {
+            this->Shell.cellCorners[cell][c] = index[at[c]];
+          }
+        }
+      });
+  }
+
+  CornerShell& Shell;
+  Execution& Exec;
+  std::vector<Word> Cells;                ///< blocks of cells, ascending
+  std::vector<std::size_t> FirstCell;     ///< of each block, and the end
+  std::vector<Word> Corners;              ///< blocks of corners, ascending
+  std::vector<std::uint32_t> FirstCorner; ///< of each block, and the end
+  std::vector<std::uint32_t> Target;      ///< for each share of a cell block the block of corners
+};
 
 } // namespace
 
@@ -51,49 +277,7 @@ CornerShell makeCornerShell(std::vector<std::uint64_t> cells, Execution& executi
 {
   CornerShell shell;
   shell.cells = std::move(cells);
-  const std::size_t count = shell.cells.size();
-  std::vector<std::vector<std::uint64_t>> blocks((count + BlockSize - 1) / BlockSize);
-  const auto forBlocks = [&](const auto& work)
-  {
-    execution.forRanges(blocks.size(), 1,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t b = first; b < last; ++b)
-        {
-          work(b, b * BlockSize, std::min(count, (b + 1) * BlockSize));
-        }
-      });
-  };
-  forBlocks([&](std::size_t b, std::size_t first, std::size_t last) { blocks[b] = cornersOfBlock(shell, first, last); });
-  for (const auto& block : blocks)
-  {
-    shell.corners.insert(shell.corners.end(), block.begin(), block.end());
-  }
-  std::sort(shell.corners.begin(), shell.corners.end());
-  shell.corners.erase(std::unique(shell.corners.begin(), shell.corners.end()), shell.corners.end());
-
-  shell.cellCorners.resize(count);
-  forBlocks(
-    [&](std::size_t b, std::size_t first, std::size_t last)
-    {
-      const auto& local = blocks[b];
-      std::vector<std::uint32_t> global(local.size());
-      auto from = shell.corners.begin();
-      for (std::size_t i = 0; i < local.size(); ++i)
-      {
-        from = std::lower_bound(from, shell.corners.end(), local[i]);
-        global[i] = std::uint32_t(from - shell.corners.begin());
-      }
-      for (std::size_t cell = first; cell < last; ++cell)
-      {
-        const LatticePoint p = fromMorton(shell.cells[cell]);
-        for (int c = 0; c < 8; ++c)
-        {
-          const auto at = std::lower_bound(local.begin(), local.end(), mortonCode(p + cornerOffset(c)));
-          shell.cellCorners[cell][c] = global[at - local.begin()];
-        }
-      }
-    });
+  ShellMaker(shell, execution).make();
   return shell;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * A sparse set of leaf cells with their corners, both in Morton order: what surfaces are made on. Corners are
- * shared by sorting their lattice codes.
+ * shared by sorting the codes of blocks of 4 x 4 x 4 lattice points, a word of bits each.
  */
 #pragma once
 
@@ -28,7 +28,7 @@ struct CornerShell
   std::ptrdiff_t findCell(const LatticePoint& cell) const;
 };
 
-/** The shell of the given cells (ascending, no code twice). Cost: O(n log n). */
+/** The shell of the given cells (ascending, no code twice). Cost: O(n). */
 CornerShell makeCornerShell(std::vector<std::uint64_t> cells, Execution& execution);
 
 /** Codes of the octree's last-generation octants of one state. */

@@ -2,6 +2,7 @@
 #include "EdgeCrossing.h"
 
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,13 @@ struct ProjectedEdge
   double toWorld(double s) const { return s * this->a.W / (this->b.W + s * (this->a.W - this->b.W)); }
 };
 
+/** Within the range of int; std::floor is a call where the processor need not have it. */
+int floorOf(double value)
+{
+  const int towardsZero = int(value);
+  return towardsZero - (value < towardsZero);
+}
+
 /** Steps over pixel boundaries along one image axis. */
 struct Stepper
 {
@@ -29,7 +37,7 @@ struct Stepper
   double start, delta;
 
   Stepper(double from, double to)
-    : pixel(int(std::floor(from + 0.5)))
+    : pixel(floorOf(from + 0.5))
     , direction(to > from ? 1 : -1)
     , start(from)
     , delta(to - from)
@@ -106,6 +114,20 @@ void sample(const PreparedView& view, const LatticeProjection& p, const Projecte
   }
 }
 
+/** Does the box of the two ends' pixels hold background? */
+bool holdsBackground(const PreparedView& view, const ProjectedEdge& e)
+{
+  const int columnA = PreparedView::nearestPixel(e.uA, view.width), columnB = PreparedView::nearestPixel(e.uB, view.width);
+  const int rowA = PreparedView::nearestPixel(e.vA, view.height), rowB = PreparedView::nearestPixel(e.vB, view.height);
+  const int c0 = std::min(columnA, columnB), c1 = std::max(columnA, columnB);
+  const int r0 = std::min(rowA, rowB), r1 = std::max(rowA, rowB);
+  if (view.inImage(c0, c1, r0, r1) && c1 - c0 < PixelTiles::Size && r1 - r0 < PixelTiles::Size)
+  {
+    return (~view.window(c0, r0) & PixelTiles::windowPart(c1 - c0 + 1, r1 - r0 + 1)) != 0;
+  }
+  return view.content(c0, c1, r0, r1).background;
+}
+
 void backgroundIntervals(const PreparedView& view, const LatticeProjection& p, const LatticePoint& inside,
   const LatticePoint& outside, double limit, bool first, Intervals& intervals)
 {
@@ -121,10 +143,7 @@ void backgroundIntervals(const PreparedView& view, const LatticeProjection& p, c
   e.vA = e.a.V / e.a.W;
   e.uB = e.b.U / e.b.W;
   e.vB = e.b.V / e.b.W;
-  const auto column = [&](double u) { return PreparedView::nearestPixel(u, view.width); };
-  const auto row = [&](double v) { return PreparedView::nearestPixel(v, view.height); };
-  if (!view.content(column(std::min(e.uA, e.uB)), column(std::max(e.uA, e.uB)), row(std::min(e.vA, e.vB)),
-             row(std::max(e.vA, e.vB))).background)
+  if (!holdsBackground(view, e))
   {
     return;
   }
@@ -166,15 +185,24 @@ double firstExcess(const Intervals& intervals, int allowed)
 double exactCrossing(
   const LatticeViews& views, const LatticePoint& inside, const LatticePoint& outside, int backgroundVotes)
 {
+  std::vector<std::uint16_t> all(std::size_t(views.size()));
+  std::iota(all.begin(), all.end(), std::uint16_t(0));
+  return exactCrossing(views, { all.data(), all.size(), 0, false }, inside, outside, backgroundVotes);
+}
+
+double exactCrossing(const LatticeViews& views, const ViewsToAsk& ask, const LatticePoint& inside,
+  const LatticePoint& outside, int backgroundVotes)
+{
   thread_local Intervals all, own;
+  const int allowed = backgroundVotes - ask.backgroundVotes;
   all.clear();
   double crossing = 1.0;
-  for (int i = 0; i < views.size(); ++i)
+  for (std::size_t n = 0; n < ask.count; ++n)
   {
+    const int view = ask.views[n];
     own.clear();
-    backgroundIntervals(
-      views.view(i), views.projection(i), inside, outside, crossing, backgroundVotes == 0, own);
-    if (backgroundVotes == 0)
+    backgroundIntervals(views.view(view), views.projection(view), inside, outside, crossing, allowed == 0, own);
+    if (allowed == 0)
     {
       crossing = own.empty() ? crossing : std::min(crossing, own.front().first);
     }
@@ -183,7 +211,7 @@ double exactCrossing(
       all.insert(all.end(), own.begin(), own.end());
     }
   }
-  return backgroundVotes == 0 ? crossing : firstExcess(all, backgroundVotes);
+  return allowed == 0 ? crossing : firstExcess(all, allowed);
 }
 
 } // namespace silhouette

@@ -18,4 +18,8 @@ namespace silhouette
 double exactCrossing(
   const LatticeViews& views, const LatticePoint& inside, const LatticePoint& outside, int backgroundVotes);
 
+/** The same for an edge of an octant of which `ask` says whom to ask. */
+double exactCrossing(const LatticeViews& views, const ViewsToAsk& ask, const LatticePoint& inside,
+  const LatticePoint& outside, int backgroundVotes);
+
 } // namespace silhouette

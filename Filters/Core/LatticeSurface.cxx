@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LatticeSurface.h"
 
+#include "LeastNumbers.h"
 #include "MarchingCubesTable.h"
 
-#include <algorithm>
+#include <numeric>
 
 namespace silhouette
 {
 namespace
 {
-
-constexpr std::uint32_t None = 0xffffffffu;
 
 unsigned caseOf(const std::array<std::uint32_t, 8>& corners, const std::vector<std::uint8_t>& inside)
 {
@@ -22,71 +21,143 @@ unsigned caseOf(const std::array<std::uint32_t, 8>& corners, const std::vector<s
   return bits;
 }
 
-} // namespace
-
-LatticeSurface contour(const CornerShell& shell, const std::vector<std::uint8_t>& inside, Execution& execution)
+/** Contours a shell. An edge is named by its lower corner and axis: 3 times the corner plus the axis. */
+class Contourer
 {
-  const auto& table = marchingCubesTable();
-  const std::size_t cells = shell.cells.size();
-  LatticeSurface surface;
-  surface.cellEnd.resize(cells);
+public:
+  Contourer(const CornerShell& shell, const std::vector<std::uint8_t>& inside, Execution& execution)
+    : Shell(shell)
+    , Inside(inside)
+    , Exec(execution)
+    , EdgeCell(3 * shell.corners.size())
+    , FirstEdge(shell.corners.size() + 1, 0)
+  {
+  }
 
-  // An edge is named by its lower corner and axis. First the upper corners of the crossed ones, ...
-  std::vector<std::uint32_t> upper(3 * shell.corners.size(), None);
-  std::uint32_t triangles = 0;
-  for (std::size_t cell = 0; cell < cells; ++cell)
+  LatticeSurface contour()
   {
-    const auto& corners = shell.cellCorners[cell];
-    const unsigned bits = caseOf(corners, inside);
-    triangles += std::uint32_t(table[bits].triangles.size());
-    surface.cellEnd[cell] = triangles;
-    if (bits == 0 || bits == 255)
-    {
-      continue;
-    }
-    for (int e = 0; e < 12; ++e)
-    {
-      const auto& ends = edgeCorners[e];
-      if ((bits >> ends[0] & 1u) != (bits >> ends[1] & 1u))
-      {
-        upper[3 * std::size_t(corners[ends[0]]) + edgeAxis(e)] = corners[ends[1]];
-      }
-    }
+    this->findEdges();
+    this->numberEdges();
+    this->makeTriangles();
+    return std::move(this->Surface);
   }
-  // ... then their numbers, in lattice order, ...
-  std::vector<std::uint32_t> number(upper.size(), None);
-  for (std::size_t edge = 0; edge < upper.size(); ++edge)
+
+private:
+  template <typename Work>
+  void forEach(std::size_t count, const Work& work)
   {
-    if (upper[edge] != None)
-    {
-      number[edge] = std::uint32_t(surface.edges.size());
-      const auto lower = std::uint32_t(edge / 3);
-      surface.edges.push_back(
-        inside[lower] ? CrossedEdge{ lower, upper[edge] } : CrossedEdge{ upper[edge], lower });
-    }
-  }
-  // ... then the triangles, each cell at its own place.
-  surface.triangles.resize(triangles);
-  execution.forRanges(cells, 4096,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t cell = first; cell < last; ++cell)
+    this->Exec.forRanges(count, 4096,
+      [&](std::size_t first, std::size_t last)
       {
-        const auto& corners = shell.cellCorners[cell];
-        std::size_t at = cell == 0 ? 0 : surface.cellEnd[cell - 1];
-        for (const auto& triangle : table[caseOf(corners, inside)].triangles)
+        for (std::size_t i = first; i < last; ++i)
+        {
+          work(i);
+        }
+      });
+  }
+
+  /** The cells' cases, where their triangles end, and which edges are crossed. */
+  void findEdges()
+  {
+    const auto& table = marchingCubesTable();
+    this->Surface.cellCase.resize(this->Shell.cells.size());
+    this->Surface.cellEnd.resize(this->Shell.cells.size());
+    this->forEach(this->Shell.cells.size(),
+      [&](std::size_t cell)
+      {
+        const auto& corners = this->Shell.cellCorners[cell];
+        const unsigned bits = caseOf(corners, this->Inside);
+        this->Surface.cellCase[cell] = std::uint8_t(bits);
+        this->Surface.cellEnd[cell] = std::uint32_t(table[bits].triangles.size());
+        for (int e = 0; bits != 0 && bits != 255 && e < 12; ++e)
+        {
+          const auto& ends = edgeCorners[e];
+          if (((bits >> ends[0] ^ bits >> ends[1]) & 1u) != 0)
+          {
+            this->EdgeCell.lower(3 * std::size_t(corners[ends[0]]) + edgeAxis(e), std::uint32_t(cell));
+          }
+        }
+      });
+    std::partial_sum(this->Surface.cellEnd.begin(), this->Surface.cellEnd.end(), this->Surface.cellEnd.begin());
+  }
+
+  bool crossed(std::size_t edge) const { return this->EdgeCell[edge] != LeastNumbers::None; }
+
+  /** Number the edges in lattice order. */
+  void numberEdges()
+  {
+    this->forEach(this->Shell.corners.size(),
+      [&](std::size_t c)
+      { this->FirstEdge[c + 1] = this->crossed(3 * c) + this->crossed(3 * c + 1) + this->crossed(3 * c + 2); });
+    std::partial_sum(this->FirstEdge.begin(), this->FirstEdge.end(), this->FirstEdge.begin());
+    this->Surface.edges.resize(this->FirstEdge.back());
+    this->forEach(this->Shell.corners.size(),
+      [&](std::size_t c)
+      {
+        std::uint32_t at = this->FirstEdge[c];
+        for (int axis = 0; at < this->FirstEdge[c + 1] && axis < 3; ++axis)
+        {
+          if (this->crossed(3 * c + axis))
+          {
+            this->Surface.edges[at++] = this->edge(std::uint32_t(c), axis);
+          }
+        }
+      });
+  }
+
+  CrossedEdge edge(std::uint32_t lower, int axis) const
+  {
+    const std::uint32_t cell = this->EdgeCell[3 * std::size_t(lower) + axis];
+    const auto& corners = this->Shell.cellCorners[cell];
+    int e = 4 * axis;
+    while (corners[edgeCorners[e][0]] != lower)
+    {
+      ++e;
+    }
+    const std::uint32_t upper = corners[edgeCorners[e][1]];
+    return this->Inside[lower] ? CrossedEdge{ lower, upper, cell } : CrossedEdge{ upper, lower, cell };
+  }
+
+  std::uint32_t number(std::uint32_t lower, int axis) const
+  {
+    const std::size_t edge = 3 * std::size_t(lower);
+    return this->FirstEdge[lower] + (axis > 0 && this->crossed(edge)) + (axis > 1 && this->crossed(edge + 1));
+  }
+
+  void makeTriangles()
+  {
+    const auto& table = marchingCubesTable();
+    this->Surface.triangles.resize(this->Shell.cells.empty() ? 0 : this->Surface.cellEnd.back());
+    this->forEach(this->Shell.cells.size(),
+      [&](std::size_t cell)
+      {
+        const auto& corners = this->Shell.cellCorners[cell];
+        std::size_t at = cell == 0 ? 0 : this->Surface.cellEnd[cell - 1];
+        for (const auto& triangle : table[this->Surface.cellCase[cell]].triangles)
         {
           for (int v = 0; v < 3; ++v)
           {
             const int e = triangle[v];
-            surface.triangles[at][v] =
-              std::int32_t(number[3 * std::size_t(corners[edgeCorners[e][0]]) + edgeAxis(e)]);
+            this->Surface.triangles[at][v] = std::int32_t(this->number(corners[edgeCorners[e][0]], edgeAxis(e)));
           }
           ++at;
         }
-      }
-    });
-  return surface;
+      });
+  }
+
+  const CornerShell& Shell;
+  const std::vector<std::uint8_t>& Inside;
+  Execution& Exec;
+  LatticeSurface Surface;
+  LeastNumbers EdgeCell;                ///< for each edge that is crossed the first cell that has it
+  std::vector<std::uint32_t> FirstEdge; ///< for each corner the number of the first edge of which it is the lower end
+};
+
+} // namespace
+
+LatticeSurface contour(const CornerShell& shell, const std::vector<std::uint8_t>& inside, Execution& execution)
+{
+  return Contourer(shell, inside, execution).contour();
 }
 
 Eigen::Vector3d crossingPosition(const Lattice& lattice, const CornerShell& shell, const CrossedEdge& edge, double t)

@@ -15,6 +15,7 @@ struct CrossedEdge
 {
   std::uint32_t inside = 0;  ///< index of the inside end among the shell's corners
   std::uint32_t outside = 0; ///< index of the outside end
+  std::uint32_t cell = 0;    ///< the first of the shell's cells that have this edge
 };
 
 /** Triangles over crossed edges, before the points are placed. */
@@ -23,6 +24,7 @@ struct LatticeSurface
   std::vector<CrossedEdge> edges;      ///< ordered by the lower end's lattice code, then by axis
   std::vector<Triangle> triangles;     ///< indices into edges, in the order of the cells
   std::vector<std::uint32_t> cellEnd;  ///< for each shell cell the end of its triangles
+  std::vector<std::uint8_t> cellCase;  ///< for each shell cell its case: bit c is set where corner c is inside
 };
 
 /** Least distance of a crossing from either end of its edge, in edges, so that no two points coincide. */

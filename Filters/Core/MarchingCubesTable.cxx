@@ -6,9 +6,6 @@
 namespace silhouette
 {
 
-const std::array<std::array<std::uint8_t, 2>, 12> edgeCorners = { { { 0, 1 }, { 2, 3 }, { 4, 5 }, { 6, 7 },
-  { 0, 2 }, { 1, 3 }, { 4, 6 }, { 5, 7 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } } };
-
 namespace
 {
 

@@ -16,7 +16,8 @@ namespace silhouette
 {
 
 /** The edges of a cell: edge e joins corner edgeCorners[e][0] to the corner one lattice step further on its axis. */
-extern const std::array<std::array<std::uint8_t, 2>, 12> edgeCorners;
+inline constexpr std::array<std::array<std::uint8_t, 2>, 12> edgeCorners = { { { 0, 1 }, { 2, 3 }, { 4, 5 }, { 6, 7 },
+  { 0, 2 }, { 1, 3 }, { 4, 6 }, { 5, 7 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } } };
 
 /** Axis (0, 1, 2) of each edge; edges 0 to 3 run along x, 4 to 7 along y, 8 to 11 along z. */
 inline int edgeAxis(int edge)

@@ -33,6 +33,13 @@ struct OctantBox
 
 ViewRelation relate(const PreparedView& view, const LatticeProjection& projection, const OctantBox& octant);
 
+/**
+ * The same for the eight children of an octant of edge 2 and more at once: relations[c] for each child c whose bit is
+ * set in `children`. The 27 lattice points that they share are projected once.
+ */
+void relateChildren(const PreparedView& view, const LatticeProjection& projection, const OctantBox& parent,
+  unsigned children, std::array<ViewRelation, 8>& relations);
+
 /** The first stage alone: the bounding box of the polygon. For comparison; relate() decides more. */
 ViewRelation relateBoundingBox(
   const PreparedView& view, const LatticeProjection& projection, const OctantBox& octant);

@@ -48,6 +48,28 @@ struct CarveStatistics
   std::vector<double> carvedByView;         ///< for each view the share of the root cube that it carved
 };
 
+/**
+ * What the carving knew of the parents of the last generation: for each intersection octant of the last generation
+ * but one, in order, what its descendants inherit. A view that is in no list is settled: it calls all of the octant
+ * object, or all of it background, or says nothing about it.
+ */
+struct UndecidedViews
+{
+  std::vector<std::size_t> first;           ///< into views; one more than there are octants; empty: not known
+  std::vector<std::uint16_t> views;         ///< ascending for each octant
+  std::vector<std::uint16_t> backgroundVotes; ///< views that call all of the octant background
+  std::vector<std::uint8_t> seen;           ///< 1 where some view sees all of the octant
+};
+
+/** Whom to ask about the points of an octant, and what the other views have said of all of it. */
+struct ViewsToAsk
+{
+  const std::uint16_t* views = nullptr;
+  std::size_t count = 0;
+  int backgroundVotes = 0; ///< of the others
+  bool seen = false;       ///< one of the others sees all of the octant
+};
+
 struct Octree
 {
   Lattice lattice;
@@ -58,6 +80,7 @@ struct Octree
   std::uint64_t fingerprint = 0;       ///< of the views and policies it was carved from
   std::vector<Generation> generations; ///< index is the generation; empty below treeGeneration
   CarveStatistics statistics;
+  UndecidedViews undecided;            ///< spares whoever asks about corners most of the views; may be empty
 
   const Generation& last() const { return this->generations.back(); }
   std::size_t count(OctantState state, int generation) const;

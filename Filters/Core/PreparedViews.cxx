@@ -68,47 +68,20 @@ void check(const View& view, std::size_t index)
   }
 }
 
-void sumAreas(const BinaryImage& image, PreparedView& out)
+PreparedView prepareView(const View& view, std::vector<std::uint8_t>&& pixels, OutsidePolicy outside)
 {
-  const std::size_t stride = std::size_t(image.width) + 1;
-  out.areaSums.assign(stride * (image.height + 1), 0);
-  out.objectBox = { image.width, -1, image.height, -1 };
-  for (int row = 0; row < image.height; ++row)
-  {
-    std::int32_t inRow = 0;
-    const std::int32_t* above = &out.areaSums[std::size_t(row) * stride];
-    std::int32_t* sums = &out.areaSums[std::size_t(row + 1) * stride];
-    const std::uint8_t* pixels = &out.object[std::size_t(row) * image.width];
-    for (int column = 0; column < image.width; ++column)
-    {
-      if (pixels[column])
-      {
-        ++inRow;
-        out.objectBox[0] = std::min(out.objectBox[0], column);
-        out.objectBox[1] = std::max(out.objectBox[1], column);
-      }
-      sums[column + 1] = above[column + 1] + inRow;
-    }
-    if (inRow > 0)
-    {
-      out.objectBox[2] = std::min(out.objectBox[2], row);
-      out.objectBox[3] = row;
-    }
-  }
-}
-
-PreparedView prepare(const View& view, OutsidePolicy outside)
-{
-  const auto& image = view.silhouette;
   PreparedView out;
   out.name = view.name;
   out.projection = view.projection;
-  out.width = image.width;
-  out.height = image.height;
-  out.object.resize(image.pixels.size());
-  std::transform(image.pixels.begin(), image.pixels.end(), out.object.begin(),
-    [](std::uint8_t value) { return std::uint8_t(value != 0); });
-  sumAreas(image, out);
+  out.width = view.silhouette.width;
+  out.height = view.silhouette.height;
+  out.object = std::move(pixels);
+  out.tiles = PixelTiles(out.object.data(), out.width, out.height);
+  for (std::uint8_t& value : out.object)
+  {
+    value = value != 0;
+  }
+  out.objectBox = out.tiles.objectBox();
   const auto& box = out.objectBox;
   const bool any = box[1] >= 0;
   const std::array<bool, 4> touched = { any && box[0] == 0, any && box[1] == out.width - 1, any && box[2] == 0,
@@ -139,17 +112,6 @@ int projectionRank(const Projection& projection)
   return int(decomposition.rank());
 }
 
-Vote PreparedView::pixelVote(int column, int row) const
-{
-  if (column >= 0 && row >= 0 && column < this->width && row < this->height)
-  {
-    return this->object[std::size_t(row) * this->width + column] ? Vote::Object : Vote::Background;
-  }
-  const bool abstains = (column < 0 && this->open[0]) || (column >= this->width && this->open[1]) ||
-    (row < 0 && this->open[2]) || (row >= this->height && this->open[3]);
-  return abstains ? Vote::Abstain : Vote::Background;
-}
-
 PixelContent PreparedView::content(int firstColumn, int lastColumn, int firstRow, int lastRow) const
 {
   PixelContent content;
@@ -161,9 +123,9 @@ PixelContent PreparedView::content(int firstColumn, int lastColumn, int firstRow
   const int r0 = std::max(firstRow, 0), r1 = std::min(lastRow, this->height - 1);
   if (c0 <= c1 && r0 <= r1)
   {
-    const std::int64_t objects = this->objectPixels(c0, c1 + 1, r0, r1 + 1);
-    content.object = objects > 0;
-    content.background = objects < std::int64_t(c1 - c0 + 1) * (r1 - r0 + 1);
+    const TileContent within = this->tiles.content(c0, c1, r0, r1);
+    content.object = within.object;
+    content.background = within.background;
   }
   // The nine regions of the plane: outside the image each is one answer.
   const bool columns[3] = { firstColumn < 0, c0 <= c1, lastColumn >= this->width };
@@ -180,7 +142,7 @@ PixelContent PreparedView::content(int firstColumn, int lastColumn, int firstRow
       {
         const int column = x == 0 ? -1 : (x == 1 ? 0 : this->width);
         const int row = y == 0 ? -1 : (y == 1 ? 0 : this->height);
-        const bool abstains = this->pixelVote(column, row) == Vote::Abstain;
+        const bool abstains = this->abstainsAt(column, row);
         content.abstain |= abstains;
         content.background |= !abstains;
       }
@@ -190,8 +152,18 @@ PixelContent PreparedView::content(int firstColumn, int lastColumn, int firstRow
 }
 
 PreparedViews::PreparedViews(const std::vector<View>& views, const ViewOptions& options, Execution& execution)
-  : Views(views.size())
-  , Options(options)
+  : Options(options)
+{
+  this->prepare(views, nullptr, execution);
+}
+
+PreparedViews::PreparedViews(std::vector<View>&& views, const ViewOptions& options, Execution& execution)
+  : Options(options)
+{
+  this->prepare(views, &views, execution);
+}
+
+void PreparedViews::prepare(const std::vector<View>& views, std::vector<View>* movable, Execution& execution)
 {
   if (views.empty())
   {
@@ -205,18 +177,21 @@ PreparedViews::PreparedViews(const std::vector<View>& views, const ViewOptions& 
   {
     check(views[i], i);
   }
+  this->Views.resize(views.size());
   std::vector<std::uint64_t> fingerprints(views.size());
   execution.forRanges(views.size(), 1,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t i = first; i < last; ++i)
       {
-        this->Views[i] = prepare(views[i], options.outside);
+        auto pixels = movable ? std::move((*movable)[i].silhouette.pixels) : views[i].silhouette.pixels;
+        PreparedView& view = this->Views[i];
+        view = prepareView(views[i], std::move(pixels), this->Options.outside);
         Fingerprinter hash;
-        const std::int32_t size[3] = { views[i].silhouette.width, views[i].silhouette.height, int(options.outside) };
+        const std::int32_t size[3] = { view.width, view.height, int(this->Options.outside) };
         hash.add(size, sizeof(size));
-        hash.add(views[i].projection.data(), 12 * sizeof(double));
-        hash.add(this->Views[i].object.data(), this->Views[i].object.size());
+        hash.add(view.projection.data(), 12 * sizeof(double));
+        hash.add(view.tiles.words().data(), view.tiles.words().size() * sizeof(std::uint64_t));
         fingerprints[i] = hash.value();
       }
     });
@@ -256,18 +231,6 @@ LatticeViews::LatticeViews(const PreparedViews& views, const Lattice& lattice)
   }
 }
 
-Vote LatticeViews::vote(int i, const LatticePoint& p) const
-{
-  const auto h = this->Projections[i](p);
-  if (!(h.W > this->Projections[i].minimumDepth))
-  {
-    return Vote::Abstain;
-  }
-  const PreparedView& view = this->view(i);
-  return view.pixelVote(
-    PreparedView::nearestPixel(h.U / h.W, view.width), PreparedView::nearestPixel(h.V / h.W, view.height));
-}
-
 int LatticeViews::insideVotes(const LatticePoint& p) const
 {
   int background = 0;
@@ -275,6 +238,19 @@ int LatticeViews::insideVotes(const LatticePoint& p) const
   for (int i = 0; i < this->size(); ++i)
   {
     const Vote vote = this->vote(i, p);
+    background += vote == Vote::Background;
+    seen |= vote != Vote::Abstain;
+  }
+  return seen ? this->size() - background : 0;
+}
+
+int LatticeViews::insideVotes(const LatticePoint& p, const ViewsToAsk& ask) const
+{
+  int background = ask.backgroundVotes;
+  bool seen = ask.seen;
+  for (std::size_t n = 0; n < ask.count; ++n)
+  {
+    const Vote vote = this->vote(ask.views[n], p);
     background += vote == Vote::Background;
     seen |= vote != Vote::Abstain;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The views as every filter uses them: silhouettes, their summed-area tables, projections and policies. This is
+ * The views as every filter uses them: silhouettes, their tiles, projections and policies. This is
  * the one place where a pixel is looked up; whoever asks about a corner or a polygon asks here, so that no two
  * answers can disagree.
  */
@@ -9,6 +9,7 @@
 #include "Execution.h"
 #include "Lattice.h"
 #include "Octree.h"
+#include "PixelTiles.h"
 #include "View.h"
 
 #include <array>
@@ -56,28 +57,51 @@ struct PreparedView
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> object;    ///< 0 or 1, top row first
-  std::vector<std::int32_t> areaSums;  ///< (width + 1) x (height + 1): object pixels above and left
+  PixelTiles tiles;                    ///< the same, a bit a pixel, for all questions
   std::array<bool, 4> open{};          ///< abstains beyond: left, right, top, bottom
   std::array<int, 4> objectBox{};      ///< least and greatest column, least and greatest row of the object
 
   /** The silhouette as a whole, top row first, for maps that are made of it; single pixels are asked below. */
   const std::uint8_t* silhouette() const { return this->object.data(); }
   /** The vote of pixel (column, row), which may lie outside the image. */
-  Vote pixelVote(int column, int row) const;
+  Vote pixelVote(int column, int row) const
+  {
+    if (this->inImage(column, column, row, row))
+    {
+      return this->tiles.object(column, row) ? Vote::Object : Vote::Background;
+    }
+    return this->abstainsAt(column, row) ? Vote::Abstain : Vote::Background;
+  }
+  /** Does a pixel outside the image lie beyond a side of which nothing is known? */
+  bool abstainsAt(int column, int row) const
+  {
+    return (column < 0 && this->open[0]) || (column >= this->width && this->open[1]) ||
+      (row < 0 && this->open[2]) || (row >= this->height && this->open[3]);
+  }
   /** What the pixels of the given inclusive ranges hold; ranges may reach outside. An empty range holds nothing. */
   PixelContent content(int firstColumn, int lastColumn, int firstRow, int lastRow) const;
   /** Number of object pixels in [c0, c1) x [r0, r1), which lies within the image. */
-  std::int64_t objectPixels(int c0, int c1, int r0, int r1) const
+  std::int64_t objectPixels(int c0, int c1, int r0, int r1) const { return this->tiles.count(c0, c1, r0, r1); }
+  /** Do the inclusive ranges lie in the image? */
+  bool inImage(int firstColumn, int lastColumn, int firstRow, int lastRow) const
   {
-    const std::size_t stride = std::size_t(this->width) + 1;
-    const auto* s = this->areaSums.data();
-    return std::int64_t(s[r1 * stride + c1]) - s[r0 * stride + c1] - s[r1 * stride + c0] + s[r0 * stride + c0];
+    return firstColumn >= 0 && firstRow >= 0 && lastColumn < this->width && lastRow < this->height;
   }
+  /** The same as content() where the ranges lie in the image and are not empty; nothing abstains there. */
+  TileContent contentInImage(int firstColumn, int lastColumn, int firstRow, int lastRow) const
+  {
+    return this->tiles.content(firstColumn, lastColumn, firstRow, lastRow);
+  }
+  /** Is a pixel of the image object? */
+  bool objectInImage(int column, int row) const { return this->tiles.object(column, row); }
+  /** The object pixels among 8 x 8 from a pixel of the image on: PixelTiles::window. */
+  std::uint64_t window(int column, int row) const { return this->tiles.window(column, row); }
   /** Nearest pixel column or row of an image coordinate; everything outside the image is -1 or `size`. */
   static int nearestPixel(double coordinate, int size)
   {
-    const double nearest = std::floor(coordinate + 0.5);
-    return nearest < 0.0 ? -1 : (nearest >= size ? size : int(nearest));
+    // Cutting off is floor for what is not negative, and costs no call.
+    const double shifted = coordinate + 0.5;
+    return shifted < 0.0 ? -1 : (shifted >= size ? size : int(shifted));
   }
 };
 
@@ -91,9 +115,10 @@ public:
   /**
    * Check the views and make them ready. Throws InvalidInput, naming the view: no views, an empty silhouette
    * image, a pixel array of the wrong length, a projection that is not finite or of rank below 3.
-   * Cost: one pass over the pixels, 5 bytes of memory a pixel.
+   * Cost: one pass over the pixels, 1.2 bytes of memory a pixel. Views that are moved in are not copied.
    */
   PreparedViews(const std::vector<View>& views, const ViewOptions& options, Execution& execution);
+  PreparedViews(std::vector<View>&& views, const ViewOptions& options, Execution& execution);
 
   int size() const { return int(this->Views.size()); }
   const PreparedView& operator[](int view) const { return this->Views[view]; }
@@ -102,6 +127,8 @@ public:
   std::uint64_t fingerprint() const { return this->Fingerprint; }
 
 private:
+  void prepare(const std::vector<View>& views, std::vector<View>* movable, Execution& execution);
+
   std::vector<PreparedView> Views;
   ViewOptions Options;
   std::uint64_t Fingerprint = 0;
@@ -140,9 +167,22 @@ public:
   const PreparedViews& prepared() const { return *this->Views; }
 
   /** What view `i` says of a lattice point: is this corner background in this view? */
-  Vote vote(int i, const LatticePoint& p) const;
+  Vote vote(int i, const LatticePoint& p) const
+  {
+    const LatticeProjection& projection = this->Projections[std::size_t(i)];
+    const auto h = projection(p);
+    if (!(h.W > projection.minimumDepth))
+    {
+      return Vote::Abstain;
+    }
+    const PreparedView& view = this->view(i);
+    return view.pixelVote(
+      PreparedView::nearestPixel(h.U / h.W, view.width), PreparedView::nearestPixel(h.V / h.W, view.height));
+  }
   /** Inside votes of a lattice point: the views that do not call it background; 0 where no view sees it. */
   int insideVotes(const LatticePoint& p) const;
+  /** The same for a point of an octant of which `ask` says whom to ask. */
+  int insideVotes(const LatticePoint& p, const ViewsToAsk& ask) const;
 
 private:
   const PreparedViews* Views;

@@ -2,9 +2,11 @@
 #include "VotingMarchingCubes.h"
 
 #include "CornerShell.h"
+#include "CornerVotes.h"
 #include "EdgeCrossing.h"
 #include "LatticeSurface.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace silhouette
@@ -32,19 +34,12 @@ int allowedBackgroundVotes(const Octree& octree, const PreparedViews& views, con
   return allowed;
 }
 
-void countLost(const CornerShell& shell, const std::vector<std::uint8_t>& inside, VotingSurface& surface)
+void countLost(const LatticeSurface& contoured, VotingSurface& surface)
 {
-  surface.intersectionOctants = shell.cells.size();
-  for (const auto& corners : shell.cellCorners)
-  {
-    int count = 0;
-    for (const std::uint32_t corner : corners)
-    {
-      count += inside[corner];
-    }
-    surface.lostNoCorner += count == 0;
-    surface.lostAllCorners += count == 8;
-  }
+  const auto& cases = contoured.cellCase;
+  surface.intersectionOctants = cases.size();
+  surface.lostNoCorner = std::uint64_t(std::count(cases.begin(), cases.end(), std::uint8_t(0)));
+  surface.lostAllCorners = std::uint64_t(std::count(cases.begin(), cases.end(), std::uint8_t(255)));
 }
 
 /** Run `work(i)` for i in [0, count), with progress and a chance to stop after each sixteenth. */
@@ -67,6 +62,22 @@ void forEach(Execution& execution, std::size_t count, const Work& work)
   }
 }
 
+/** 1 for each corner with enough votes; the cube's border is outside. */
+std::vector<std::uint8_t> labels(const Lattice& lattice, const CornerShell& shell,
+  const std::vector<std::uint16_t>& votes, int required, Execution& execution)
+{
+  std::vector<std::uint8_t> inside(votes.size());
+  execution.forRanges(votes.size(), 4096,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        inside[c] = votes[c] >= required && !lattice.onBorder(fromMorton(shell.corners[c]));
+      }
+    });
+  return inside;
+}
+
 } // namespace
 
 int requiredInsideVotes(double share, int views)
@@ -87,20 +98,13 @@ VotingSurface votingMarchingCubes(
   const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
   execution.checkpoint(0.15);
 
-  std::vector<std::uint16_t> votes(shell.corners.size());
-  std::vector<std::uint8_t> inside(shell.corners.size());
+  const CellViews cellViews(octree, shell, latticeViews);
   Phase voting(execution, 0.15, 0.5);
-  forEach(voting, votes.size(),
-    [&](std::size_t c)
-    {
-      const LatticePoint p = fromMorton(shell.corners[c]);
-      votes[c] = std::uint16_t(latticeViews.insideVotes(p));
-      inside[c] = votes[c] >= required && !octree.lattice.onBorder(p);
-    });
+  const std::vector<std::uint16_t> votes = cornerVotes(shell, cellViews, latticeViews, voting);
+  LatticeSurface contoured = contour(shell, labels(octree.lattice, shell, votes, required, execution), execution);
 
   VotingSurface surface;
-  countLost(shell, inside, surface);
-  LatticeSurface contoured = contour(shell, inside, execution);
+  countLost(contoured, surface);
   execution.checkpoint(0.6);
   surface.mesh.triangles = std::move(contoured.triangles);
   surface.mesh.points.resize(contoured.edges.size());
@@ -113,7 +117,7 @@ VotingSurface votingMarchingCubes(
       double t = 0.5;
       if (options.edges == EdgePlacement::Exact)
       {
-        t = exactCrossing(latticeViews, fromMorton(shell.corners[edge.inside]),
+        t = exactCrossing(latticeViews, cellViews[edge.cell], fromMorton(shell.corners[edge.inside]),
           fromMorton(shell.corners[edge.outside]), allowed);
       }
       surface.mesh.points[e] = crossingPosition(

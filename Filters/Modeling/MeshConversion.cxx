@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -32,7 +33,12 @@ void storePoints(const Mesh& mesh, bool single, vtkPolyData* out)
   vtkNew<vtkPoints> points;
   points->SetDataType(single ? VTK_FLOAT : VTK_DOUBLE);
   points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
-  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  if (!single && !mesh.points.empty())
+  {
+    static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "points are three doubles each");
+    std::memcpy(points->GetVoidPointer(0), mesh.points.data(), mesh.points.size() * sizeof(Eigen::Vector3d));
+  }
+  for (std::size_t i = 0; single && i < mesh.points.size(); ++i)
   {
     points->SetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
   }

@@ -17,8 +17,8 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
+#include <utility>
 
 namespace silhouette::modeling
 {
@@ -237,16 +237,24 @@ template <typename Array> Array* cellArray(vtkHyperTreeGrid* grid, const char* n
   return array;
 }
 
-/** The cells' numbers, sorted by generation and code. */
-std::vector<vtkIdType> sortedCells(const unsigned char* generation, const vtkTypeUInt64* code,
-                                   vtkIdType count)
+/** Bring a generation's octants into the order of their codes. A grid of our own has them in it. */
+void sortOctants(Generation& generation)
 {
-  std::vector<vtkIdType> order(static_cast<std::size_t>(count));
-  std::iota(order.begin(), order.end(), vtkIdType(0));
-  std::sort(order.begin(), order.end(),
-            [&](vtkIdType a, vtkIdType b)
-            { return generation[a] != generation[b] ? generation[a] < generation[b] : code[a] < code[b]; });
-  return order;
+  if (std::is_sorted(generation.code.begin(), generation.code.end()))
+  {
+    return;
+  }
+  std::vector<std::pair<std::uint64_t, OctantState>> octants;
+  for (std::size_t i = 0; i < generation.size(); ++i)
+  {
+    octants.emplace_back(generation.code[i], generation.state[i]);
+  }
+  std::sort(octants.begin(), octants.end());
+  for (std::size_t i = 0; i < octants.size(); ++i)
+  {
+    generation.code[i] = octants[i].first;
+    generation.state[i] = octants[i].second;
+  }
 }
 
 [[noreturn]] void throwIncomplete(int generation, std::uint64_t code)
@@ -315,7 +323,7 @@ Octree octreeOf(vtkHyperTreeGrid* grid)
       cellArray<vtkUnsignedCharArray>(grid, "Generation", count)->GetPointer(0);
   const vtkTypeUInt64* codes = cellArray<vtkTypeUInt64Array>(grid, "LatticeCode", count)->GetPointer(0);
   octree.generations.resize(std::size_t(octree.lattice.depth) + 1);
-  for (const vtkIdType cell : sortedCells(generations, codes, count))
+  for (vtkIdType cell = 0; cell < count; ++cell)
   {
     const int g = generations[cell];
     if (g < octree.treeGeneration || g > octree.lattice.depth || states->GetValue(cell) > 2 ||
@@ -328,6 +336,10 @@ Octree octreeOf(vtkHyperTreeGrid* grid)
     }
     octree.generations[g].code.push_back(codes[cell]);
     octree.generations[g].state.push_back(OctantState(states->GetValue(cell)));
+  }
+  for (Generation& generation : octree.generations)
+  {
+    sortOctants(generation);
   }
   if (getIntegerField(grid, "NumberOfPieces", 1) == 1 &&
       octree.generations[octree.treeGeneration].size() != std::size_t(1) << 3 * octree.treeGeneration)

@@ -96,7 +96,7 @@ SharedViews preparedViews(vtkPartitionedDataSetCollection* collection, const Vie
       return holder->Views;
     }
   }
-  return std::make_shared<const PreparedViews>(silhouetteViews(imageViews(collection)), options, execution);
+  return std::make_shared<const PreparedViews>(silhouetteViews(imageViews(collection), execution), options, execution);
 }
 
 } // namespace silhouette::modeling

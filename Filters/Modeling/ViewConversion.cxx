@@ -65,6 +65,73 @@ void checkTwoDimensional(vtkImageData* image, const std::string& view)
   }
 }
 
+/** An image's values where they are: the bottom row first. */
+struct PixelBytes
+{
+  const unsigned char* values = nullptr;
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+};
+
+/** Throws InvalidInput naming the view and what it holds instead of unsigned char values. */
+PixelBytes pixelBytes(const ImageView& view, std::size_t index)
+{
+  const std::string what = describeView(index, view.name);
+  checkTwoDimensional(view.image, what);
+  vtkDataArray* scalars = view.image->GetPointData()->GetScalars();
+  auto* bytes = vtkUnsignedCharArray::SafeDownCast(scalars);
+  if (!scalars)
+  {
+    throw InvalidInput(what + ": the image has no scalars");
+  }
+  if (!bytes)
+  {
+    throw InvalidInput(what + ": the image's scalars are of type " + scalars->GetDataTypeAsString() +
+                       ", unsigned char is needed");
+  }
+  int size[3];
+  view.image->GetDimensions(size);
+  const int channels = bytes->GetNumberOfComponents();
+  if (bytes->GetNumberOfValues() != static_cast<vtkIdType>(std::size_t(size[0]) * size[1] * channels))
+  {
+    throw InvalidInput(what + ": " + std::to_string(bytes->GetNumberOfTuples()) + " pixel values for " +
+                       std::to_string(size[0]) + " x " + std::to_string(size[1]) + " pixels");
+  }
+  return {bytes->GetPointer(0), size[0], size[1], channels};
+}
+
+/** Does a row hold a value above 1? */
+bool exceedsOne(const unsigned char* row, int width)
+{
+  unsigned char all = 0;
+  for (int column = 0; column < width; ++column)
+  {
+    all |= row[column];
+  }
+  return all > 1;
+}
+
+BinaryImage silhouetteOf(const PixelBytes& image)
+{
+  const auto row = [&](int r) { return image.values + std::size_t(r) * image.width; };
+  bool many = false;
+  for (int r = 0; r < image.height && !many; ++r)
+  {
+    many = exceedsOne(row(r), image.width);
+  }
+  const unsigned char highestBackground = many ? 127 : 0;
+  BinaryImage silhouette{image.width, image.height, {}};
+  silhouette.pixels.resize(std::size_t(image.width) * image.height);
+  for (int r = 0; r < image.height; ++r)
+  {
+    std::transform(row(r), row(r) + image.width,
+                   silhouette.pixels.begin() + std::size_t(image.height - 1 - r) * image.width,
+                   [&](unsigned char value) { return std::uint8_t(value > highestBackground); });
+  }
+  return silhouette;
+}
+
 } // namespace
 
 std::vector<ImageView> imageViews(vtkPartitionedDataSetCollection* collection)
@@ -121,34 +188,10 @@ void storeViews(const std::vector<ImageView>& views, vtkPartitionedDataSetCollec
 
 PixelRows pixelRows(const ImageView& view, std::size_t index)
 {
-  const std::string what = describeView(index, view.name);
-  checkTwoDimensional(view.image, what);
-  vtkDataArray* scalars = view.image->GetPointData()->GetScalars();
-  auto* bytes = vtkUnsignedCharArray::SafeDownCast(scalars);
-  if (!scalars)
-  {
-    throw InvalidInput(what + ": the image has no scalars");
-  }
-  if (!bytes)
-  {
-    throw InvalidInput(what + ": the image's scalars are of type " + scalars->GetDataTypeAsString() +
-                       ", unsigned char is needed");
-  }
-  int size[3];
-  view.image->GetDimensions(size);
-  PixelRows pixels;
-  pixels.width = size[0];
-  pixels.height = size[1];
-  pixels.channels = bytes->GetNumberOfComponents();
-  const std::size_t count = std::size_t(size[0]) * size[1] * pixels.channels;
-  if (bytes->GetNumberOfValues() != static_cast<vtkIdType>(count))
-  {
-    throw InvalidInput(what + ": " + std::to_string(bytes->GetNumberOfTuples()) + " pixel values for " +
-                       std::to_string(size[0]) + " x " + std::to_string(size[1]) + " pixels");
-  }
-  pixels.values.resize(count);
-  copyRowsReversed(bytes->GetPointer(0), pixels.values.data(), size[1],
-                   std::size_t(size[0]) * pixels.channels);
+  const PixelBytes bytes = pixelBytes(view, index);
+  PixelRows pixels{bytes.width, bytes.height, bytes.channels, {}};
+  pixels.values.resize(std::size_t(bytes.width) * bytes.height * bytes.channels);
+  copyRowsReversed(bytes.values, pixels.values.data(), bytes.height, std::size_t(bytes.width) * bytes.channels);
   return pixels;
 }
 
@@ -162,28 +205,30 @@ vtkSmartPointer<vtkImageData> makeImage(const PixelRows& pixels)
   return image;
 }
 
-std::vector<View> silhouetteViews(const std::vector<ImageView>& views)
+std::vector<View> silhouetteViews(const std::vector<ImageView>& views, Execution& execution)
 {
   std::vector<View> silhouettes(views.size());
+  std::vector<PixelBytes> images;
   for (std::size_t i = 0; i < views.size(); ++i)
   {
-    PixelRows pixels = pixelRows(views[i], i);
-    if (pixels.channels != 1)
+    images.push_back(pixelBytes(views[i], i));
+    if (images[i].channels != 1)
     {
       throw InvalidInput(
-          describeView(i, views[i].name) + ": the image has " + std::to_string(pixels.channels) +
+          describeView(i, views[i].name) + ": the image has " + std::to_string(images[i].channels) +
           " components, a silhouette has 1; vtkSilhouetteExtractor makes silhouettes of photographs");
-    }
-    const bool zeroAndOne = *std::max_element(pixels.values.begin(), pixels.values.end()) == 1;
-    const std::uint8_t highestBackground = zeroAndOne ? 0 : 127;
-    for (std::uint8_t& value : pixels.values)
-    {
-      value = value > highestBackground;
     }
     silhouettes[i].name = views[i].name;
     silhouettes[i].projection = views[i].projection;
-    silhouettes[i].silhouette = {pixels.width, pixels.height, std::move(pixels.values)};
   }
+  execution.forRanges(views.size(), 1,
+                      [&](std::size_t first, std::size_t last)
+                      {
+                        for (std::size_t i = first; i < last; ++i)
+                        {
+                          silhouettes[i].silhouette = silhouetteOf(images[i]);
+                        }
+                      });
   return silhouettes;
 }
 

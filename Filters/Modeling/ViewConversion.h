@@ -7,6 +7,7 @@
  */
 #pragma once
 
+#include "Execution.h"
 #include "View.h"
 
 #include "vtkSmartPointer.h"
@@ -53,7 +54,7 @@ PixelRows pixelRows(const ImageView& view, std::size_t index);
 vtkSmartPointer<vtkImageData> makeImage(const PixelRows& pixels);
 
 /** The silhouettes: object where > 127, or where not 0 if the greatest value is 1. */
-std::vector<View> silhouetteViews(const std::vector<ImageView>& views);
+std::vector<View> silhouetteViews(const std::vector<ImageView>& views, Execution& execution);
 
 /** The image that silhouetteViews reads back as this silhouette: 0 and 255. */
 ImageView imageOf(const View& view);

@@ -5,6 +5,7 @@
 #include "LocalHullSurface.h"
 #include "MeshConversion.h"
 #include "OctreeConversion.h"
+#include "OctreeSharing.h"
 #include "PieceRequests.h"
 #include "PreparedViewsSharing.h"
 #include "vtkSilhouetteExecution.h"
@@ -30,18 +31,18 @@ namespace
 struct Inputs
 {
   silhouette::Mesh surface;
-  silhouette::Octree octree;
+  SharedOctree octree;
   SharedViews views; ///< null without views
 
   Inputs(vtkPolyData* polyData, vtkHyperTreeGrid* grid, vtkPartitionedDataSetCollection* collection,
          silhouette::Execution& execution)
   {
     this->surface = meshOf(polyData, "the surface");
-    this->octree = octreeOf(grid);
+    this->octree = sharedOctree(grid);
     if (collection)
     {
       silhouette::ViewOptions options;
-      options.outside = this->octree.outside;
+      options.outside = this->octree->outside;
       this->views = preparedViews(collection, options, execution);
     }
     execution.checkpoint(1.0);
@@ -225,14 +226,14 @@ int vtkLocalHullSurfacer::RequestData(vtkInformation* request, vtkInformationVec
     {
       silhouette::Phase surfacing(execution, 0.1, port < 0 ? 0.5 : 1.0);
       silhouette::LocalHullSurface found =
-          silhouette::localHullSurface(in.surface, in.octree, in.views.get(), options, surfacing);
+          silhouette::localHullSurface(in.surface, *in.octree, in.views.get(), options, surfacing);
       takePiece(found.mesh, piece);
       storeSurface(found, output, vtkPolyData::GetData(outputs, 0));
     }
     if (port != 0)
     {
       silhouette::Phase classifying(execution, port < 0 ? 0.5 : 0.1, 1.0);
-      storeHulls(silhouette::classifyLocalHulls(in.surface, in.octree, in.views.get(), options, classifying),
+      storeHulls(silhouette::classifyLocalHulls(in.surface, *in.octree, in.views.get(), options, classifying),
                  piece, output, vtkPolyData::GetData(outputs, 1));
     }
     execution.progress(1.0);

@@ -5,6 +5,7 @@
 #include "FieldValues.h"
 #include "MeshConversion.h"
 #include "OctreeConversion.h"
+#include "OctreeSharing.h"
 #include "PieceRequests.h"
 #include "SurvivorIslands.h"
 #include "ViewConversion.h"
@@ -76,7 +77,7 @@ int vtkSilhouetteEvaluator::RequestData(vtkInformation* request, vtkInformationV
   const auto evaluate = [&](vtkSilhouetteExecution& execution)
   {
     const silhouette::Mesh mesh = nonEmptyMesh(vtkPolyData::GetData(inputs[0]), "the surface");
-    const std::vector<silhouette::View> views = silhouetteViews(imageViews(collection));
+    const std::vector<silhouette::View> views = silhouetteViews(imageViews(collection), execution);
     if (views.empty())
     {
       throw silhouette::InvalidInput("no views: silhouettes to compare the surface with are needed");
@@ -93,7 +94,7 @@ int vtkSilhouetteEvaluator::RequestData(vtkInformation* request, vtkInformationV
       silhouette::Phase dropping(execution, 0.6, 0.65);
       std::uint64_t dropped = 0;
       const silhouette::Octree octree =
-          silhouette::dropIslands(octreeOf(grid), this->IslandShare, dropped, dropping);
+          silhouette::dropIslands(*sharedOctree(grid), this->IslandShare, dropped, dropping);
       silhouette::Phase covering(execution, 0.65, 0.7);
       setField(table, "LostSurface", std::uint64_t(silhouette::lostSurvivors(octree, mesh, covering)));
       setField(table, "LeafEdge", octree.lattice.leafEdge());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSilhouetteExecution.h"
 
+#include "OctreeSharing.h"
 #include "PreparedViewsSharing.h"
 #include "vtkSilhouetteCompatibility.h"
 
@@ -66,6 +67,7 @@ void emptyOutputs(vtkInformationVector* outputs, int port)
     {
       data->Initialize();
       forgetPreparedViews(data);
+      forgetOctree(data);
     }
   }
 }

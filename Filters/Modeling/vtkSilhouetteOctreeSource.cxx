@@ -6,6 +6,7 @@
 #include "CarvingSetup.h"
 #include "FieldValues.h"
 #include "OctreeConversion.h"
+#include "OctreeSharing.h"
 #include "PieceRequests.h"
 #include "PreparedViewsSharing.h"
 #include "ViewConversion.h"
@@ -50,7 +51,7 @@ public:
       this->Last.views.reset();
       this->Last.views = this->Added.empty() ? preparedViews(input, options, execution)
                                              : std::make_shared<const silhouette::PreparedViews>(
-                                                   silhouetteViews(all), options, execution);
+                                                   silhouetteViews(all, execution), options, execution);
       this->Last.given = all;
       this->Last.times.clear();
       for (const ImageView& view : all)
@@ -261,6 +262,7 @@ int vtkSilhouetteOctreeSource::RequestData(vtkInformation* request, vtkInformati
 
   const auto grow = [&](vtkSilhouetteExecution& execution)
   {
+    forgetOctree(grid); // before the next one is made
     silhouette::Phase preparing(execution, 0.0, 0.1);
     silhouette::ViewOptions viewOptions;
     viewOptions.outside = static_cast<silhouette::OutsidePolicy>(this->OutsidePolicy);
@@ -276,7 +278,7 @@ int vtkSilhouetteOctreeSource::RequestData(vtkInformation* request, vtkInformati
     settings.piece = requestedPiece(request, outputs);
     const auto warn = [this](const std::string& text)
     { vtkWarningMacro(<< text); };
-    const CarvedViews carved = carveViews(views, settings, this->AutomaticTolerance, warn, carving);
+    CarvedViews carved = carveViews(views, settings, this->AutomaticTolerance, warn, carving);
     const std::string cut =
         cutByBoxWarning(carved.octree, silhouette::LatticeViews(*carved.views, carved.octree.lattice));
     if (!cut.empty())
@@ -289,6 +291,7 @@ int vtkSilhouetteOctreeSource::RequestData(vtkInformation* request, vtkInformati
     setField(grid, "NumberOfPieces", settings.piece.count);
     storeTolerance(carved, grid);
     storeUsed(carved, this->Internals->views(input), viewsOut);
+    attachOctree(grid, std::make_shared<const silhouette::Octree>(std::move(carved.octree)));
     execution.progress(1.0);
   };
   return runFilter(this, outputs, grow);

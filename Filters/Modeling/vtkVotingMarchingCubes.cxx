@@ -5,6 +5,7 @@
 #include "FieldValues.h"
 #include "MeshConversion.h"
 #include "OctreeConversion.h"
+#include "OctreeSharing.h"
 #include "PreparedViewsSharing.h"
 #include "VotingMarchingCubes.h"
 #include "vtkSilhouetteExecution.h"
@@ -48,7 +49,8 @@ int vtkVotingMarchingCubes::RequestData(vtkInformation*, vtkInformationVector** 
     {
       return;
     }
-    const silhouette::Octree octree = octreeOf(grid);
+    const SharedOctree shared = sharedOctree(grid);
+    const silhouette::Octree& octree = *shared;
     if (this->OutputPointsPrecision == SINGLE_PRECISION)
     {
       silhouette::requireSinglePrecision(octree.lattice);

@@ -212,3 +212,34 @@ TEST(OctantTest, ThePolygonDecidesMoreThanItsBoundingBox)
   }
   EXPECT_GT(more, 0);
 }
+
+/** Eight children at once or one after another: the same, whatever is in front of the camera or in the image. */
+TEST(OctantTest, ChildrenTogetherAreChildrenApart)
+{
+  Random random(31);
+  std::array<int, 5> seen{};
+  for (int trial = 0; trial < 4000; ++trial)
+  {
+    Scene s = randomScene(random, OutsidePolicy(trial % 3), trial % 4 == 0);
+    s.octant.size *= 2;
+    std::array<ViewRelation, 8> relations;
+    relations.fill(ViewRelation::Abstain);
+    const unsigned children = 1u + unsigned(random.below(255));
+    relateChildren(s.views[0], s.projection, s.octant, children, relations);
+    for (int c = 0; c < 8; ++c)
+    {
+      const LatticePoint d = cornerOffset(c);
+      const auto& o = s.octant.lowest;
+      const int half = s.octant.size / 2;
+      const auto expected = children >> c & 1u
+        ? relate(s.views[0], s.projection, { { o.i + d.i * half, o.j + d.j * half, o.k + d.k * half }, half })
+        : ViewRelation::Abstain;
+      ASSERT_EQ(relations[c], expected) << "trial " << trial << ", child " << c;
+      ++seen[std::size_t(expected)];
+    }
+  }
+  for (const int count : seen)
+  {
+    EXPECT_GT(count, 20);
+  }
+}

@@ -31,7 +31,7 @@ class TestCheck(unittest.TestCase):
         self.tree = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, self.tree)
         self.write("Filters/Core/Mesh.h", "#include <vector>\n")
-        self.write("Filters/Core/PreparedViews.h", "inline int f(V v) { return v.object[0] + v.areaSums[0]; }\n")
+        self.write("Filters/Core/PreparedViews.h", "inline int f(V v) { return v.object[0] + v.tiles.words()[0]; }\n")
         self.write("Filters/Capture/Regions.h", '#include "Mesh.h"\n#include <opencv2/imgproc.hpp>\n')
         self.write("Filters/Modeling/vtk.module", "NAME\n  M\n")
         self.write("Filters/Modeling/CMakeLists.txt", "set(classes\n  vtkSilhouetteThing\n)\n")
@@ -100,7 +100,7 @@ class TestCheck(unittest.TestCase):
 
     def test_pixels_looked_up_elsewhere(self):
         for planted in ("int a = view.object[3];\n", "int a = view->object.data()[3];\n",
-                        "int a = view.areaSums[3];\n"):
+                        "int a = view.tiles.words()[3];\n"):
             with self.subTest(planted):
                 self.setUp()
                 self.expect("Filters/Core/Mesh.h", planted, "outside PreparedViews")

@@ -50,7 +50,7 @@ GENERATED = {  # by VTK's module system: the export macros
     "vtkSilhouetteFiltersModelingModule.h": "Filters/Modeling",
     "vtkSilhouetteOffScreenModule.h": "Filters/OffScreen",
 }
-PIXEL_LOOKUP = re.compile(r"(\.|->)object\s*(\[|\.data\b|\.at\b)|\bareaSums\b")
+PIXEL_LOOKUP = re.compile(r"(\.|->)object\s*(\[|\.data\b|\.at\b)|(\.|->)tiles\b")
 IN_PUBLIC_HEADER = ((re.compile(r"\btemplate\s*<"), "a template"),
                     (re.compile(r"\bEigen::"), "Eigen"),
                     (re.compile(r"\bcv::"), "OpenCV"))

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CornerVotes.h"
+
+#include "LeastNumbers.h"
+
+#include <numeric>
+
+namespace silhouette
+{
+
+CellViews::CellViews(const Octree& octree, const CornerShell& shell, const LatticeViews& views)
+  : Source(&octree)
+  , All(std::size_t(views.size()))
+{
+  std::iota(this->All.begin(), this->All.end(), std::uint16_t(0));
+  if (octree.undecided.first.empty() || octree.fingerprint != views.prepared().fingerprint())
+  {
+    return;
+  }
+  const Generation& parents = octree.generations[std::size_t(octree.lattice.depth) - 1];
+  this->Parents.resize(shell.cells.size(), Unknown);
+  std::size_t at = 0;
+  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
+  {
+    const std::uint64_t code = shell.cells[cell] >> 3;
+    while (at < parents.size() && parents.code[at] < code)
+    {
+      ++at;
+    }
+    if (at < parents.size() && parents.code[at] == code && parents.state[at] == OctantState::Intersection)
+    {
+      this->Parents[cell] = parents.childBlock[at];
+    }
+  }
+}
+
+std::vector<std::uint16_t> cornerVotes(
+  const CornerShell& shell, const CellViews& cellViews, const LatticeViews& views, Execution& execution)
+{
+  LeastNumbers lowestCell(shell.corners.size());
+  execution.forRanges(shell.cells.size(), 4096,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t cell = first; cell < last; ++cell)
+      {
+        for (const std::uint32_t corner : shell.cellCorners[cell])
+        {
+          lowestCell.lower(corner, std::uint32_t(cell));
+        }
+      }
+    });
+  std::vector<std::uint16_t> votes(shell.corners.size());
+  constexpr std::size_t Steps = 16;
+  for (std::size_t step = 0; step < Steps; ++step)
+  {
+    const std::size_t from = votes.size() * step / Steps, to = votes.size() * (step + 1) / Steps;
+    execution.forRanges(to - from, 1024,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t c = from + first; c < from + last; ++c)
+        {
+          votes[c] =
+            std::uint16_t(views.insideVotes(fromMorton(shell.corners[c]), cellViews[lowestCell[c]]));
+        }
+      });
+    execution.checkpoint(double(step + 1) / Steps);
+  }
+  return votes;
+}
+
+} // namespace silhouette
