@@ -32,6 +32,8 @@ double inPixels(double strength, int side)
   return strength * side / 1024.0;
 }
 
+constexpr double PixelsPerOctant = 7.5; // of depth 7, in the middle of an image of 1024
+
 bool chosen(const std::vector<std::string>& names, const std::string& name)
 {
   return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
@@ -91,6 +93,11 @@ const Noise& noiseNamed(const std::string& name)
   return named(noises(), name, "kind of noise");
 }
 
+double contourPixels(double octants, int depth)
+{
+  return std::ldexp(octants * PixelsPerOctant, 7 - depth);
+}
+
 std::vector<Case> casesOf(const std::string& object, const StudyOptions& options)
 {
   std::vector<Case> cases;
@@ -100,6 +107,12 @@ std::vector<Case> casesOf(const std::string& object, const StudyOptions& options
   }
   for (const std::uint64_t seed : options.seeds)
   {
+    if (options.contourOctants > 0.0)
+    {
+      const double strength = contourPixels(options.contourOctants, options.settings.depth);
+      cases.push_back({object, "contour", strength, seed});
+      continue;
+    }
     for (const Noise& noise : noises())
     {
       for (std::size_t s = 0; s < noise.strengths.size() && chosen(options.noises, noise.name); ++s)

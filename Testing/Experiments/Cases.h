@@ -60,8 +60,10 @@ struct StudyOptions
   std::vector<std::string> strengths; ///< names; empty is all
   std::vector<std::uint64_t> seeds{11, 12, 13, 14, 15};
   std::vector<std::string> methods;             ///< names; empty is all
+  double contourOctants = 0.0; ///< above 0: instead of the noises, the clean case and contour noise of so many octants
   int threads = 0;                              ///< 0: all processors
   std::filesystem::path output = "experiments"; ///< the folder of the results
+  std::filesystem::path results = "results.csv"; ///< their file in it
   bool resume = false;                          ///< go on with the results that are there
   bool fresh = false;                           ///< replace them
 };
@@ -74,6 +76,9 @@ struct Case
   double strength = 0.0;
   std::uint64_t seed = 0; ///< 0 for the clean case, which has none
 };
+
+/** Contour noise of so many octants of the depth, in pixels of an image of 1024. */
+double contourPixels(double octants, int depth);
 
 /** The name of the case without noise among the kinds of noise. */
 extern const char* const CleanName;

@@ -90,10 +90,8 @@ Mesh globalHull(Trial& trial)
   return convexHull(trial.imperfect().points).value_or(Mesh());
 }
 
-Mesh localHulls(Trial& trial, LocalHullMode mode)
+Mesh localHulls(Trial& trial, const LocalHullOptions& options)
 {
-  LocalHullOptions options;
-  options.mode = mode;
   return localHullSurface(trial.imperfect(), trial.octree(0), &trial.prepared(), options, trial.execution())
       .mesh;
 }
@@ -113,12 +111,56 @@ std::vector<Method> makeTable()
                      [k](Trial& t) { return voting(t, VotingMode::Consistent, k); }});
   }
   table.push_back({"delaunay", "3D Delaunay", Family::Known, 0, true, delaunay});
-  table.push_back({"convex-hull", "3D convex hull", Family::Known, 0, false, globalHull});
+  table.push_back({"convex-hull", "3D convex hull", Family::Known, 0, true, globalHull});
   table.push_back({"reconstruction", "surface reconstruction", Family::Known, 0, true, reconstruction});
   table.push_back({"hulls-thesis", "local hulls, Thesis", Family::Hulls, 0, false,
-                   [](Trial& t) { return localHulls(t, LocalHullMode::Thesis); }});
+                   [](Trial& t)
+                   {
+                     LocalHullOptions options;
+                     options.mode = LocalHullMode::Thesis;
+                     return localHulls(t, options);
+                   }});
   table.push_back({"hulls-robust", "local hulls, Robust", Family::Hulls, 0, false,
-                   [](Trial& t) { return localHulls(t, LocalHullMode::Robust); }});
+                   [](Trial& t) { return localHulls(t, LocalHullOptions()); }});
+  return table;
+}
+
+/** A stage that is switched off. */
+struct Stage
+{
+  const char* name;
+  const char* label;
+  void (*leaveOut)(LocalHullOptions& options);
+};
+
+constexpr double SmallIslands = 0.05; // of the largest component, as the program's --drop-islands
+
+const Stage Stages[] = {
+    {"no-repair", "without the silhouettes' repair",
+     [](LocalHullOptions& o) { o.repairSilhouettes = false; }},
+    {"no-alignment", "without the views' alignment",
+     [](LocalHullOptions& o) { o.correction.alignViews = false; }},
+    {"no-correction", "without the corrected field",
+     [](LocalHullOptions& o) { o.correction.moveSurface = false; }},
+    {"no-noise-stages", "without all three: labels by votes, covered",
+     [](LocalHullOptions& o)
+     { o.repairSilhouettes = o.correction.alignViews = o.correction.moveSurface = false; }},
+    {"no-thin-hulls", "without thin hulls", [](LocalHullOptions& o) { o.thinHulls = false; }},
+    {"no-bridges", "without bridges", [](LocalHullOptions& o) { o.bridgeGap = 0; }},
+    {"no-cavities", "without the filling of cavities", [](LocalHullOptions& o) { o.fillCavities = false; }},
+    {"no-islands", "without islands: small ones dropped",
+     [](LocalHullOptions& o) { o.islandShare = SmallIslands; }}};
+
+std::vector<Method> makeAblations()
+{
+  std::vector<Method> table;
+  for (const Stage& stage : Stages)
+  {
+    LocalHullOptions options;
+    stage.leaveOut(options);
+    table.push_back({stage.name, stage.label, Family::Ablation, 0, false,
+                     [options](Trial& t) { return localHulls(t, options); }});
+  }
   return table;
 }
 
@@ -130,16 +172,25 @@ const std::vector<Method>& methods()
   return table;
 }
 
+const std::vector<Method>& ablations()
+{
+  static const std::vector<Method> table = makeAblations();
+  return table;
+}
+
 const Method& methodNamed(const std::string& name)
 {
   std::string known;
-  for (const Method& method : methods())
+  for (const std::vector<Method>* table : {&methods(), &ablations()})
   {
-    if (method.name == name)
+    for (const Method& method : *table)
     {
-      return method;
+      if (method.name == name)
+      {
+        return method;
+      }
+      known += (known.empty() ? "" : ", ") + method.name;
     }
-    known += (known.empty() ? "" : ", ") + method.name;
   }
   throw InvalidInput("there is no method '" + name + "'; there are " + known);
 }

@@ -19,8 +19,9 @@ enum class Family
   Cubes,
   Faithful,
   Consistent,
-  Known, ///< what VTK and Qhull have
-  Hulls  ///< ours: these keep the promises
+  Known,   ///< what VTK and Qhull have
+  Hulls,   ///< ours: these keep the promises
+  Ablation ///< ours without one of its stages
 };
 
 struct Method
@@ -34,7 +35,9 @@ struct Method
 };
 
 const std::vector<Method>& methods();
-/** The named one. Throws InvalidInput where there is none. */
+/** The robust local hulls, each without one of their stages. */
+const std::vector<Method>& ablations();
+/** The named one, of both tables. Throws InvalidInput where there is none. */
 const Method& methodNamed(const std::string& name);
 
 } // namespace silhouette::experiments

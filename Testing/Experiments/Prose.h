@@ -16,6 +16,8 @@ extern const char* const Errors;
 extern const char* const Shapes;
 extern const char* const Times;
 extern const char* const Failures;
+extern const char* const Stages;
+extern const char* const Scaling;
 extern const char* const Votes;
 extern const char* const Generations;
 extern const char* const Hulls;

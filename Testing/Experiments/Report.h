@@ -14,13 +14,21 @@
 namespace silhouette::experiments
 {
 
+/** All that the page tells of; what is empty is left out. */
+struct Results
+{
+  std::vector<Row> cases; ///< of one settings or of several, each of which gets its own tables
+  std::vector<Row> ablation;
+  std::vector<Row> scaling;
+  std::vector<VoteTable> votes;
+};
+
 /** The page's text. Figures are named where their files are in `figures`. */
-std::string pageOf(const std::vector<Row>& rows, const std::vector<VoteTable>& votes,
-                   const std::filesystem::path& figures);
+std::string pageOf(const Results& results, const std::filesystem::path& figures);
 
 /**
- * Write the page from the results in `results` to FOLDER/experiments.md; its figures are in FOLDER/Figures.
+ * Write the page from the results in `output` to FOLDER/experiments.md; its figures are in FOLDER/Figures.
  */
-void writeReport(const std::filesystem::path& results, const std::filesystem::path& folder);
+void writeReport(const std::filesystem::path& output, const std::filesystem::path& folder);
 
 } // namespace silhouette::experiments

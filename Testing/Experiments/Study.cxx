@@ -143,7 +143,7 @@ private:
     for (const Method* method : missing)
     {
       rows.push_back(runMethod(*method, trial, at, this->Options.settings));
-      appendRow(resultsFile(this->Options.output), rows.back());
+      appendRow(this->Options.output / this->Options.results, rows.back());
     }
     say(at, rows, watch.seconds());
   }
@@ -166,12 +166,22 @@ std::filesystem::path votesFile(const std::filesystem::path& folder)
   return folder / "votes.txt";
 }
 
+std::filesystem::path ablationFile(const std::filesystem::path& folder)
+{
+  return folder / "ablation.csv";
+}
+
+std::filesystem::path scalingFile(const std::filesystem::path& folder)
+{
+  return folder / "scaling.csv";
+}
+
 void runStudy(const StudyOptions& options)
 {
   checkNames(options);
   const std::vector<std::string> names = chosenObjects(options);
   const std::vector<const Method*> chosen = chosenMethods(options);
-  const std::filesystem::path file = resultsFile(options.output);
+  const std::filesystem::path file = options.output / options.results;
   std::filesystem::create_directories(options.output);
   if (options.fresh)
   {
@@ -186,6 +196,49 @@ void runStudy(const StudyOptions& options)
   for (const std::string& name : names)
   {
     ObjectRun(name, options, execution).run(chosen, done);
+  }
+}
+
+void runAblation(const StudyOptions& options)
+{
+  StudyOptions ablation = options;
+  ablation.results = ablationFile("");
+  ablation.seeds = {options.seeds.front()};
+  ablation.methods = {"cubes-exact", "hulls-robust"};
+  for (const Method& method : ablations())
+  {
+    ablation.methods.push_back(method.name);
+  }
+  if (options.objects.empty())
+  {
+    ablation.objects = {"pebble", "torus", "jug", "twig"};
+  }
+  if (options.strengths.empty())
+  {
+    ablation.strengths = {"strong"};
+  }
+  runStudy(ablation);
+}
+
+void runScaling(const StudyOptions& options)
+{
+  StudyOptions scaling = options;
+  scaling.results = scalingFile("");
+  scaling.seeds = {options.seeds.front()};
+  scaling.methods = {"cubes-exact", "hulls-robust"};
+  scaling.contourOctants = 0.5;
+  if (options.objects.empty())
+  {
+    scaling.objects = {"pebble", "jug"};
+  }
+  for (scaling.settings.depth = 6; scaling.settings.depth <= 9; ++scaling.settings.depth)
+  {
+    for (scaling.settings.size = 512; scaling.settings.size <= 2048; scaling.settings.size *= 2)
+    {
+      runStudy(scaling);
+      scaling.fresh = false; // the others are added
+      scaling.resume = true;
+    }
   }
 }
 

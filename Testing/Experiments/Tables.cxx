@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Tables.h"
 
+#include "Markdown.h"
 #include "Methods.h"
 #include "Promises.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 
@@ -18,19 +18,6 @@ namespace
 const char* const Ours = "hulls-robust";
 const char* const Strict = "cubes-exact";
 
-std::string format(const char* pattern, double value)
-{
-  char text[64];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
-
-/** A length in octants: three decimals for small ones. */
-std::string length(double value)
-{
-  return format(std::abs(value) < 1.0 ? "%.3f" : "%.2f", value);
-}
-
 std::string meanAndSpread(const Summary& summary)
 {
   if (summary.runs == 0)
@@ -38,25 +25,6 @@ std::string meanAndSpread(const Summary& summary)
     return summary.failures > 0 ? "none" : "";
   }
   return length(summary.mean) + (summary.runs > 1 ? " ± " + length(summary.deviation) : "");
-}
-
-/** A table's line of cells. */
-std::string line(const std::vector<std::string>& cells)
-{
-  std::string text = "|";
-  for (const std::string& cell : cells)
-  {
-    text += " " + cell + " |";
-  }
-  return text + "\n";
-}
-
-/** Head and rule; the first column is text, the others numbers. */
-std::string head(const std::vector<std::string>& cells)
-{
-  std::vector<std::string> rule(cells.size(), "---:");
-  rule[0] = "---";
-  return line(cells) + line(rule);
 }
 
 bool isOf(const Row& row, const std::string& object, const Condition& condition)
@@ -219,6 +187,22 @@ Summary summarize(const std::vector<Row>& rows, const std::string& object, const
   return summary;
 }
 
+std::string bestOfAll(const std::vector<Row>& rows, const std::string& object, const Condition& condition)
+{
+  std::string best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Method& method : methods())
+  {
+    const Summary summary = summarize(rows, object, condition, method.name, Error);
+    if (summary.runs > 0 && summary.mean < least)
+    {
+      least = summary.mean;
+      best = method.name;
+    }
+  }
+  return best;
+}
+
 std::string bestOf(int family, const std::vector<Row>& rows, const std::string& object,
                    const Condition& condition)
 {
@@ -236,32 +220,29 @@ std::string bestOf(int family, const std::vector<Row>& rows, const std::string& 
   return best;
 }
 
-std::string errorTable(const std::vector<Row>& rows, const std::string& object)
+std::string errorTable(const std::vector<Row>& rows, const std::string& object, bool firstSeedOnly)
 {
-  std::vector<std::string> names = {"noise"};
+  std::vector<const Method*> shown;
+  std::vector<std::string> cells = {"noise"};
   for (const Method& method : methods())
   {
-    names.push_back(method.label);
-  }
-  std::string text = head(names);
-  for (const Condition& condition : conditionsOf(rows))
-  {
-    std::vector<std::string> cells = {describeNoise(condition.noise, condition.strength)};
-    std::string best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const Method& method : methods())
+    const bool isRun = std::any_of(rows.begin(), rows.end(), [&](const Row& row)
+                                   { return row.at.object == object && row.method == method.name; });
+    if (method.firstSeedOnly == firstSeedOnly && isRun)
     {
-      const Summary summary = summarize(rows, object, condition, method.name, Error);
-      if (summary.runs > 0 && summary.mean < least)
-      {
-        least = summary.mean;
-        best = method.name;
-      }
+      shown.push_back(&method);
+      cells.push_back(method.label);
     }
-    for (const Method& method : methods())
+  }
+  std::string text = shown.empty() ? "" : head(cells);
+  for (const Condition& condition : shown.empty() ? std::vector<Condition>() : conditionsOf(rows))
+  {
+    const std::string best = bestOfAll(rows, object, condition);
+    cells = {describeNoise(condition.noise, condition.strength)};
+    for (const Method* method : shown)
     {
-      const std::string cell = meanAndSpread(summarize(rows, object, condition, method.name, Error));
-      cells.push_back(method.name == best ? "**" + cell + "**" : cell);
+      const std::string cell = meanAndSpread(summarize(rows, object, condition, method->name, Error));
+      cells.push_back(method->name == best ? "**" + cell + "**" : cell);
     }
     text += line(cells);
   }

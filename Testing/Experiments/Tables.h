@@ -39,8 +39,11 @@ Summary summarize(const std::vector<Row>& rows, const std::string& object, const
 std::string bestOf(int family, const std::vector<Row>& rows, const std::string& object,
                    const Condition& condition);
 
-/** One object: errors of all methods by noise. */
-std::string errorTable(const std::vector<Row>& rows, const std::string& object);
+/** The method with the least mean error of all; empty where there is none. */
+std::string bestOfAll(const std::vector<Row>& rows, const std::string& object, const Condition& condition);
+
+/** One object: errors by noise, of the methods that are run with the first seed alone or of the others. */
+std::string errorTable(const std::vector<Row>& rows, const std::string& object, bool firstSeedOnly);
 /** One object: soundness, topology and more of the methods that the page speaks of, by noise. */
 std::string shapeTable(const std::vector<Row>& rows, const std::string& object);
 /** Each method: in how many runs it is open, not manifold, ... */
@@ -51,6 +54,10 @@ std::string promiseTable(const std::vector<Row>& rows);
 std::string targetTable(const std::vector<Row>& rows);
 /** Times of the surfaces, as ratios to exact marching cubes. */
 std::string timeTable(const std::vector<Row>& rows);
+/** The local hulls without each of their stages, by noise. */
+std::string ablationTable(const std::vector<Row>& rows);
+/** The ratio of the local hulls' error to exact marching cubes', by depth and size of the images. */
+std::string scalingTable(const std::vector<Row>& rows);
 /** Runs without a surface and why; runs on thinned points. */
 std::string noteTable(const std::vector<Row>& rows);
 

@@ -19,6 +19,8 @@ namespace
 
 /** Distances from the reference beyond this are measured in its coarse stand-in; leaf octants. */
 constexpr double FarOctants = 3.0;
+/** The reference is two generations deeper than the octrees, but no deeper than this: it has to fit the memory. */
+constexpr int DeepestReference = 10;
 
 std::vector<View> viewsOf(const SyntheticCapture& capture)
 {
@@ -49,6 +51,11 @@ Mesh exactCubes(const PreparedViews& views, int depth, Execution& execution)
   return votingMarchingCubes(carveCube(views, depth, 0, execution), views, VotingOptions(), execution).mesh;
 }
 
+int referenceDepth(int depth)
+{
+  return std::max(depth + 1, std::min(depth + 2, DeepestReference));
+}
+
 } // namespace
 
 void SmpExecution::forRanges(std::size_t count, std::size_t grain, const Range& work)
@@ -74,7 +81,7 @@ Subject::Subject(const Object& which, const Settings& settings, Execution& execu
   const Case clean{which.name, CleanName, 0.0, 0};
   this->capture = synthesizeCapture(this->solid.surface(), captureOptions(clean, settings), execution);
   const PreparedViews views(viewsOf(this->capture), ViewOptions(), execution);
-  this->reference = std::make_unique<Yardstick>(exactCubes(views, settings.depth + 2, execution),
+  this->reference = std::make_unique<Yardstick>(exactCubes(views, referenceDepth(settings.depth), execution),
                                                 exactCubes(views, settings.depth, execution),
                                                 FarOctants * std::ldexp(studyCube().edge, -settings.depth));
 }

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Markdown.h"
 #include "Tables.h"
 
 #include <cmath>
-#include <cstdio>
 
 namespace silhouette::experiments
 {
 namespace
 {
-
-std::string format(const char* pattern, double value)
-{
-  char text[160];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
 
 /** A row of the table: one number for each share, of the thesis, of the first table and of the nearest. */
 std::string row(const char* name, const std::vector<std::array<VoteCounts, 4>>& columns,
