@@ -213,6 +213,30 @@ void LatticeLabels::setSurvivors(const std::vector<std::uint64_t>& cells)
   }
 }
 
+void LatticeLabels::widen(CornerShell shell)
+{
+  std::vector<std::uint8_t> inside(shell.corners.size());
+  std::vector<float> support(shell.corners.size(), 0.0f);
+  for (std::size_t c = 0; c < shell.corners.size(); ++c)
+  {
+    const std::ptrdiff_t corner = this->Shell.find(shell.corners[c]);
+    inside[c] = this->insideAt(fromMorton(shell.corners[c]));
+    support[c] = corner >= 0 ? this->Support[corner] : 0.0f;
+  }
+  std::vector<std::uint64_t> survivors;
+  for (std::size_t cell = 0; cell < this->Shell.cells.size(); ++cell)
+  {
+    if (this->Survivor[cell])
+    {
+      survivors.push_back(this->Shell.cells[cell]);
+    }
+  }
+  this->Shell = std::move(shell);
+  this->Inside = std::move(inside);
+  this->Support = std::move(support);
+  this->setSurvivors(survivors);
+}
+
 void LatticeLabels::fromOctree()
 {
   auto& known = this->Inside;

@@ -77,6 +77,9 @@ public:
   /** Label a background octant's corners inside, as part of a filled cavity. */
   void fillOctant(int generation, std::size_t index);
 
+  /** Take a shell that holds all cells of this one; labels, survivors and support stay, further corners get the labels they have. */
+  void widen(CornerShell shell);
+
   /** Label of any lattice point. */
   bool insideAt(const LatticePoint& p) const;
   /** Is a cell of the shell an intersection octant, and not a further cell? */

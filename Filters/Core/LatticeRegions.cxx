@@ -198,6 +198,24 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
   return regions;
 }
 
+LatticeRegions connectWideOutside(const LatticeLabels& labels, int width)
+{
+  const Octree& octree = labels.octree();
+  LatticeRegions regions = emptyRegions(octree, labels.shell().corners.size());
+  std::vector<std::uint8_t> left = refutedOctants(labels, OctantState::Background);
+  left.resize(regions.beyond - regions.firstOctant[0], 0);
+  forOctants(octree, OctantState::Background,
+    [&](int g, std::size_t i)
+    {
+      if (octree.lattice.cells() >> g < width)
+      {
+        left[regions.firstOctant[g] + i - regions.firstOctant[0]] = 1;
+      }
+    });
+  joinOctants(octree, OctantState::Background, true, left, regions);
+  return regions;
+}
+
 std::uint64_t fillCavities(LatticeLabels& labels)
 {
   const Octree& octree = labels.octree();

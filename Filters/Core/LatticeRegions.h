@@ -23,6 +23,9 @@ struct LatticeRegions
 /** Regions of the corners with the given label. Numbers of corners and octants with the other label are alone. */
 LatticeRegions connectRegions(const LatticeLabels& labels, bool inside);
 
+/** Regions of the background octants that are at least `width` leaf octants wide, and of the world beyond; nothing else is joined. */
+LatticeRegions connectWideOutside(const LatticeLabels& labels, int width);
+
 /** Label the cavities, outside regions that do not reach the world beyond, inside; returns their number. */
 std::uint64_t fillCavities(LatticeLabels& labels);
 

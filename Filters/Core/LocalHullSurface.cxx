@@ -133,6 +133,29 @@ struct Survivors
   }
 };
 
+/** Fill narrow tunnels; returns the corners that were labelled inside, ascending. */
+std::vector<std::uint64_t> fillTunnels(
+  LatticeLabels& labels, CoveringResult& covering, const TunnelFillingOptions& options, Execution& execution)
+{
+  const auto walls = tunnelWalls(labels, options, execution);
+  if (!walls.empty())
+  {
+    std::vector<std::uint64_t> covered;
+    for (const std::uint32_t cell : covering.coveredCells)
+    {
+      covered.push_back(labels.shell().cells[cell]);
+    }
+    labels.widen(extendedShell(labels.shell(), walls, execution));
+    for (const std::uint64_t point : walls)
+    {
+      labels.setInside(std::size_t(labels.shell().find(point)));
+    }
+    std::transform(covered.begin(), covered.end(), covering.coveredCells.begin(),
+      [&](std::uint64_t cell) { return std::uint32_t(labels.shell().findCell(fromMorton(cell))); });
+  }
+  return walls;
+}
+
 /** What of the covering is thin: no corner within an octant of it was inside before. */
 struct ThinParts
 {
@@ -245,13 +268,18 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
 {
   surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
   execution.checkpoint(0.1);
-  const CoveringResult covering = coverSurvivors(labels, survivors.bridges);
+  CoveringResult covering = coverSurvivors(labels, survivors.bridges);
   surface.coveredOctants = covering.coveredCells.size();
   surface.coveringCorners = covering.coveringCorners.size();
   execution.checkpoint(0.3);
+  auto added = codesOf(labels.shell(), covering.coveringCorners);
+  Phase filling(execution, 0.3, 0.4);
+  const auto walls = fillTunnels(labels, covering, options.tunnels, filling);
+  surface.tunnelCorners = walls.size();
+  added.insert(added.end(), walls.begin(), walls.end());
+  std::sort(added.begin(), added.end());
   surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
   execution.checkpoint(0.4);
-  const auto added = codesOf(labels.shell(), covering.coveringCorners);
   const CrossingPlacer place(labels, crossings, views, added, options.coverOffset);
   std::optional<LatticeViews> latticeViews;
   if (views)

@@ -16,6 +16,7 @@
 #include "SilhouetteRepair.h"
 #include "SliceRegions.h"
 #include "ThinHulls.h"
+#include "TunnelFilling.h"
 
 namespace silhouette
 {
@@ -43,6 +44,7 @@ struct LocalHullOptions
   SilhouetteRepairOptions repair;
   FieldCorrectionOptions correction; ///< Robust, with views
   ThinHullOptions thin;
+  TunnelFillingOptions tunnels; ///< Robust
   SliceOptions slices; ///< Thesis
   ChainOptions chains; ///< Thesis
   LocalHullsOptions hulls;
@@ -57,6 +59,7 @@ struct LocalHullSurface
   std::uint64_t coveringCorners = 0; ///< corners labelled inside to cover or to join
   std::uint64_t bridges = 0;         ///< joints between components of the survivors
   std::uint64_t cavitiesFilled = 0;  ///< cavities that were labelled inside
+  std::uint64_t tunnelCorners = 0;   ///< corners that were labelled inside to fill narrow tunnels
   std::uint64_t ignoredPoints = 0;   ///< points of the imperfect surface that lie on no lattice edge
   std::uint64_t thinHulls = 0;       ///< hulls that thin parts were rounded into
   std::uint64_t movedToHulls = 0;    ///< points moved for it

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TunnelFilling.h"
+
+#include "Error.h"
+#include "LatticeRegions.h"
+#include "SimplePoint.h"
+
+#include <algorithm>
+#include <array>
+#include <queue>
+#include <tuple>
+
+namespace silhouette
+{
+namespace
+{
+
+constexpr int GreatestWidth = 8;
+constexpr int Side = BrickField::BrickSize;
+
+enum Part : std::uint8_t
+{
+  Solid,
+  Narrow, ///< outside, not yet taken by the wide outside
+  Wide    ///< the wide outside and what it took
+};
+
+void check(const TunnelFillingOptions& options)
+{
+  if (options.width < 1 || options.width > GreatestWidth)
+  {
+    throw InvalidInput("tunnel width " + std::to_string(options.width) + " octants is outside 1 to 8");
+  }
+  if (!(options.loop >= 0.0))
+  {
+    throw InvalidInput("tunnel loop " + std::to_string(options.loop) + " of the lattice's side: at least 0 is needed");
+  }
+}
+
+/** Cells of the shell with corners of both labels. */
+std::vector<std::uint64_t> mixedCells(const LatticeLabels& labels)
+{
+  std::vector<std::uint64_t> cells;
+  for (std::size_t cell = 0; cell < labels.shell().cells.size(); ++cell)
+  {
+    int inside = 0;
+    for (const std::uint32_t corner : labels.shell().cellCorners[cell])
+    {
+      inside += labels.inside()[corner];
+    }
+    if (inside > 0 && inside < 8)
+    {
+      cells.push_back(labels.shell().cells[cell]);
+    }
+  }
+  return cells;
+}
+
+/** Parts of the lattice points in bricks around the surface. */
+class Parts
+{
+public:
+  Parts(const LatticeLabels& labels, int width, Execution& execution)
+    : Labels(labels)
+    , Bricks(labels.octree().lattice, mixedCells(labels), 2 * width)
+    , Values(Bricks.size(), Wide)
+  {
+    this->label(execution);
+    execution.checkpoint(0.4);
+    this->openByCubes(width, execution);
+    execution.checkpoint(0.8);
+  }
+
+  std::size_t size() const { return this->Values.size(); }
+  std::uint64_t code(std::size_t n) const { return this->Bricks.code(n); }
+  Part operator[](std::size_t n) const { return Part(this->Values[n]); }
+  void take(std::size_t n) { this->Values[n] = Wide; }
+  std::ptrdiff_t find(const LatticePoint& p) const
+  {
+    return std::min({ p.i, p.j, p.k }) < 0 ? -1 : this->Bricks.find(mortonCode(p));
+  }
+  /** The part of any lattice point. */
+  Part at(const LatticePoint& p) const
+  {
+    const std::ptrdiff_t n = this->find(p);
+    return n >= 0 ? (*this)[n] : this->Labels.insideAt(p) ? Solid : Wide;
+  }
+
+private:
+  void label(Execution& execution)
+  {
+    execution.forRanges(this->Bricks.bricks().size(), 8,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t n = first * BrickField::BrickPoints; n < last * BrickField::BrickPoints; ++n)
+        {
+          this->Values[n] = this->Labels.insideAt(fromMorton(this->Bricks.code(n))) ? Solid : Wide;
+        }
+      });
+  }
+
+  /** Where no cube of outside points fits, the outside is narrow. Beyond the bricks everything is taken for outside. */
+  void openByCubes(int width, Execution& execution)
+  {
+    std::vector<std::uint8_t> fits(this->Values.size());
+    for (std::size_t n = 0; n < fits.size(); ++n)
+    {
+      fits[n] = this->Values[n] != Solid;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->combineAlong(axis, width, true, fits, execution); // from here on, a cube fits
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->combineAlong(axis, width, false, fits, execution); // a cube that fits holds this point
+    }
+    for (std::size_t n = 0; n < fits.size(); ++n)
+    {
+      this->Values[n] = this->Values[n] == Solid ? Solid : fits[n] ? Wide : Narrow;
+    }
+  }
+
+  /** All of the `width` + 1 points ahead, or any of those behind. */
+  void combineAlong(int axis, int width, bool all, std::vector<std::uint8_t>& values, Execution& execution) const
+  {
+    std::vector<std::uint8_t> result(values.size());
+    execution.forRanges(this->Bricks.bricks().size(), 8,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t brick = first; brick < last; ++brick)
+        {
+          LatticePoint q = fromMorton(this->Bricks.bricks()[brick]);
+          (axis == 0 ? q.i : axis == 1 ? q.j : q.k) += all ? 1 : -1;
+          const std::ptrdiff_t beside = std::min({ q.i, q.j, q.k }) < 0 ? -1 : this->Bricks.findBrick(mortonCode(q));
+          for (std::size_t line = 0; line < BrickField::BrickPoints; ++line)
+          {
+            if ((line >> axis & 0x49) == 0) // the first point of a line along the axis
+            {
+              this->combineLine(axis, width, all, values, brick, beside, line, result);
+            }
+          }
+        }
+      });
+    values.swap(result);
+  }
+
+  static void combineLine(int axis, int width, bool all, const std::vector<std::uint8_t>& values, std::size_t brick,
+    std::ptrdiff_t beside, std::size_t line, std::vector<std::uint8_t>& result)
+  {
+    std::array<std::uint8_t, 2 * Side> points;
+    for (int t = 0; t < Side; ++t)
+    {
+      const std::size_t local = line | spreadBits(std::uint64_t(t)) << axis;
+      const std::size_t own = all ? t : t + Side, other = all ? t + Side : t;
+      points[own] = values[brick * BrickField::BrickPoints + local];
+      points[other] = beside < 0 ? 1 : values[beside * BrickField::BrickPoints + local];
+    }
+    for (int t = 0; t < Side; ++t)
+    {
+      const auto from = points.begin() + (all ? t : t + Side - width);
+      const bool any = std::find(from, from + width + 1, std::uint8_t(!all)) != from + width + 1;
+      result[brick * BrickField::BrickPoints + (line | spreadBits(std::uint64_t(t)) << axis)] = all != any;
+    }
+  }
+
+  const LatticeLabels& Labels;
+  BrickField Bricks;
+  std::vector<std::uint8_t> Values;
+};
+
+/** The six neighbours along lattice edges among the 27 points around one. */
+constexpr int Adjacent[6] = { 4, 10, 12, 14, 16, 22 };
+
+class Growth
+{
+public:
+  Growth(const LatticeLabels& labels, Parts& parts, int width)
+    : Labels(labels)
+    , Outside(parts)
+    , Regions(connectWideOutside(labels, width))
+    , Sets(parts.size() + Regions.sets.size())
+  {
+    this->joinWide(width);
+    for (std::size_t n = 0; n < parts.size(); ++n)
+    {
+      if (parts[n] == Narrow)
+      {
+        this->Remaining.push_back(n);
+        this->push(n);
+      }
+    }
+  }
+
+  void run()
+  {
+    while (!this->Front.empty())
+    {
+      const std::size_t n = std::get<2>(this->Front.top());
+      this->Front.pop();
+      if (this->Outside[n] == Narrow && this->mayTake(n))
+      {
+        this->take(n);
+      }
+    }
+    const auto taken = [&](std::size_t n) { return this->Outside[n] != Narrow; };
+    this->Remaining.erase(std::remove_if(this->Remaining.begin(), this->Remaining.end(), taken), this->Remaining.end());
+  }
+
+  /** Groups of remaining points, 26-neighbours being together, each ascending. */
+  std::vector<std::vector<std::size_t>> walls() const
+  {
+    UnionFind sets(this->Remaining.size());
+    for (std::size_t r = 0; r < this->Remaining.size(); ++r)
+    {
+      const LatticePoint p = fromMorton(this->Outside.code(this->Remaining[r]));
+      for (int n = 0; n < 27; ++n)
+      {
+        const std::ptrdiff_t other = this->Outside.find(neighbourOf(p, n));
+        const auto at = std::lower_bound(this->Remaining.begin(), this->Remaining.end(), std::size_t(std::max<std::ptrdiff_t>(other, 0)));
+        if (other >= 0 && at != this->Remaining.end() && *at == std::size_t(other))
+        {
+          sets.unite(std::uint32_t(r), std::uint32_t(at - this->Remaining.begin()));
+        }
+      }
+    }
+    std::vector<std::vector<std::size_t>> groups(this->Remaining.size());
+    for (std::size_t r = 0; r < this->Remaining.size(); ++r)
+    {
+      groups[sets.find(std::uint32_t(r))].push_back(this->Remaining[r]);
+    }
+    groups.erase(std::remove_if(groups.begin(), groups.end(), [](const auto& g) { return g.empty(); }), groups.end());
+    return groups;
+  }
+
+  /** Open a wall where least speaks for it, and go on. */
+  void open(const std::vector<std::size_t>& wall)
+  {
+    const auto weaker = [&](std::size_t a, std::size_t b) { return this->support(a) < this->support(b); };
+    this->take(*std::min_element(wall.begin(), wall.end(), weaker));
+    this->run();
+  }
+
+private:
+  /** Points of the wide outside are joined along lattice edges and through the background octants around them. */
+  void joinWide(int width)
+  {
+    const Octree& octree = this->Labels.octree();
+    const std::uint32_t octants = std::uint32_t(this->Outside.size());
+    for (std::uint32_t n = 0; n < octants; ++n)
+    {
+      if (this->Outside[n] != Wide)
+      {
+        continue;
+      }
+      const LatticePoint p = fromMorton(this->Outside.code(n));
+      for (const int a : { 14, 16, 22 })
+      {
+        const std::ptrdiff_t other = this->Outside.find(neighbourOf(p, a));
+        if (other >= 0 && this->Outside[other] == Wide)
+        {
+          this->Sets.unite(n, std::uint32_t(other));
+        }
+      }
+      if (!octree.lattice.hasCell(p) || octree.lattice.onBorder(p))
+      {
+        this->Sets.unite(n, octants + this->Regions.beyond);
+        continue;
+      }
+      const auto location = octree.locate(p);
+      if (location.generation >= 0 && location.state == OctantState::Background &&
+        octree.lattice.cells() >> location.generation >= width)
+      {
+        this->Sets.unite(n, octants + std::uint32_t(this->Regions.firstOctant[location.generation] + location.index));
+      }
+    }
+    for (std::uint32_t r = 0; r < this->Regions.sets.size(); ++r)
+    {
+      this->Sets.unite(octants + r, octants + this->Regions.sets.find(r));
+    }
+  }
+
+  float support(std::size_t n) const
+  {
+    const std::ptrdiff_t corner = this->Labels.shell().find(this->Outside.code(n));
+    return corner >= 0 ? this->Labels.support()[corner] : -1e30f;
+  }
+
+  void push(std::size_t n) { this->Front.emplace(-this->support(n), -std::ptrdiff_t(n), n); }
+
+  /** Does the outside touch the point, and with parts that are not connected otherwise? */
+  bool mayTake(std::size_t n)
+  {
+    const LatticePoint p = fromMorton(this->Outside.code(n));
+    Neighbourhood labels;
+    for (int a = 0; a < 27; ++a)
+    {
+      labels[a] = a != 13 && this->Outside.at(neighbourOf(p, a)) != Wide;
+    }
+    const int touching = topologicalNumbers(labels).outside;
+    if (touching <= 1)
+    {
+      return touching == 1;
+    }
+    std::vector<std::uint32_t> roots;
+    for (const int a : Adjacent)
+    {
+      const std::ptrdiff_t other = this->Outside.find(neighbourOf(p, a));
+      if (other >= 0 && this->Outside[other] == Wide)
+      {
+        roots.push_back(this->Sets.find(std::uint32_t(other)));
+      }
+    }
+    std::sort(roots.begin(), roots.end());
+    return std::unique(roots.begin(), roots.end()) - roots.begin() == touching;
+  }
+
+  void take(std::size_t n)
+  {
+    this->Outside.take(n);
+    const LatticePoint p = fromMorton(this->Outside.code(n));
+    for (int a = 0; a < 27; ++a)
+    {
+      const std::ptrdiff_t other = this->Outside.find(neighbourOf(p, a));
+      if (other >= 0 && this->Outside[other] == Narrow)
+      {
+        this->push(std::size_t(other));
+      }
+      else if (other >= 0 && this->Outside[other] == Wide && std::find(Adjacent, Adjacent + 6, a) != Adjacent + 6)
+      {
+        this->Sets.unite(std::uint32_t(n), std::uint32_t(other));
+      }
+    }
+  }
+
+  const LatticeLabels& Labels;
+  Parts& Outside;
+  LatticeRegions Regions;
+  UnionFind Sets; ///< of the wide outside's points, then the octants
+  std::vector<std::size_t> Remaining;
+  /** Least support first, then the first in lattice order. */
+  std::priority_queue<std::tuple<float, std::ptrdiff_t, std::size_t>> Front;
+};
+
+/** Octants along the outline of a wall: that of a rectangle with the two longest sides of its box, and the solid around it. */
+double outline(const std::vector<std::size_t>& wall, const Parts& parts)
+{
+  LatticePoint low = fromMorton(parts.code(wall.front())), high = low;
+  for (const std::size_t n : wall)
+  {
+    const LatticePoint p = fromMorton(parts.code(n));
+    low = { std::min(low.i, p.i), std::min(low.j, p.j), std::min(low.k, p.k) };
+    high = { std::max(high.i, p.i), std::max(high.j, p.j), std::max(high.k, p.k) };
+  }
+  std::array<int, 3> sides = { high.i - low.i, high.j - low.j, high.k - low.k };
+  std::sort(sides.begin(), sides.end());
+  return 2.0 * (sides[1] + sides[2]) + 8.0;
+}
+
+} // namespace
+
+std::vector<std::uint64_t> tunnelWalls(const LatticeLabels& labels, const TunnelFillingOptions& options, Execution& execution)
+{
+  check(options);
+  if (!options.fillTunnels || options.loop == 0.0)
+  {
+    return {};
+  }
+  Parts parts(labels, options.width, execution);
+  Growth growth(labels, parts, options.width);
+  growth.run();
+  const double longest = options.loop * labels.octree().lattice.cells();
+  std::vector<std::uint64_t> points;
+  for (bool settled = false; !settled;)
+  {
+    execution.checkpoint(0.9);
+    settled = true;
+    points.clear();
+    for (const auto& wall : growth.walls())
+    {
+      if (outline(wall, parts) > longest)
+      {
+        growth.open(wall);
+        settled = false;
+      }
+      for (const std::size_t n : wall)
+      {
+        points.push_back(parts.code(n));
+      }
+    }
+  }
+  std::sort(points.begin(), points.end());
+  execution.checkpoint(1.0);
+  return points;
+}
+
+} // namespace silhouette
