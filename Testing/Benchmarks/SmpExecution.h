@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The core's loops by vtkSMPTools, for programs that call the core without a filter.
+ */
+#pragma once
+
+#include "Execution.h"
+
+#include "vtkSMPTools.h"
+
+#include <algorithm>
+
+namespace silhouette
+{
+
+class SmpExecution : public Execution
+{
+public:
+  void forRanges(std::size_t count, std::size_t grain, const Range& work) override
+  {
+    const auto range = [&work](vtkIdType first, vtkIdType last) { work(std::size_t(first), std::size_t(last)); };
+    vtkSMPTools::For(0, vtkIdType(count), vtkIdType(std::max<std::size_t>(grain, 1)), range);
+  }
+  int threads() const override { return std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads()); }
+};
+
+} // namespace silhouette
