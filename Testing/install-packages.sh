@@ -3,7 +3,7 @@
 #
 # Installs the Debian packages of Testing/packages.txt, those of the sections named.
 #
-#   bash Testing/install-packages.sh SECTION...      (sections: build, test)
+#   bash Testing/install-packages.sh SECTION...      (sections: build, test, benchmarks)
 #
 # Does nothing, and needs neither root nor network, where everything is installed already. Otherwise it asks
 # apt-get, with sudo where not root, and refreshes apt's lists only where a package is not in them.

@@ -27,6 +27,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <cstdio>
 #include <exception>
 #include <map>

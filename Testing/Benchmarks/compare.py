@@ -26,15 +26,19 @@ def run(command):
     return done.stdout
 
 
+def stages(side, cells, options, *more, threads=None):
+    return json.loads(run([options.stages, side, "--shape", options.shape, "--depth", int(math.log2(cells)), "--views",
+                           options.views, "--size", options.size, "--threads",
+                           options.threads if threads is None else threads, *more]))
+
+
 def measure(side, cells, options, folder):
     """One side in a process of its own; its numbers, and those of its mesh."""
     mesh = folder / ("%s-%d.ply" % (side, cells))
-    depth = int(math.log2(cells))
     if side in ("numpy", "open3d"):
         result = json.loads(run([sys.executable, HERE / "peers.py", side, folder / "capture", cells, mesh]))
     else:
-        result = json.loads(run([options.stages, side, "--shape", options.shape, "--depth", depth, "--views",
-                                 options.views, "--size", options.size, "--threads", options.threads, "--mesh", mesh]))
+        result = stages(side, cells, options, "--mesh", mesh)
     metrics = folder / "metrics.json"
     run([options.program, "evaluate", mesh, "--capture", folder / "capture", "--truth", folder / "capture" / "truth.ply",
          "--metrics", metrics, "--quiet"])
@@ -61,13 +65,13 @@ def table(rows, cells):
         lines.append("| %s | %.3g | %.3g | %.3g | %s | %.3f | %.3f |" % (
             NAMES[side], seconds(row) / seconds(ours), processor_seconds(row) / processor_seconds(ours),
             row["memory_mib"] / ours["memory_mib"], format(row["faces"], ","), 100 * row["xor"], row["error"]))
-    lines += ["", "Ours: sums %.3g, carve %.3g, surface %.3g s; %.0f MiB, of these the capture %.0f." % (
+    lines += ["", "Ours and VTK's filters: the fastest of three runs; others run once. Ours: sums %.3g, carve %.3g, surface %.3g s; %.0f MiB, of these the capture %.0f." % (
         ours["seconds"]["sums"], ours["seconds"]["carve"], ours["seconds"]["surface"], ours["memory_mib"],
         ours["memory_before_mib"])]
     return lines
 
 
-def targets(rows, cells):
+def targets(rows, cells, options):
     """The statements that are made of a size, with what was measured."""
     ours, said = rows["ours"], []
 
@@ -87,8 +91,15 @@ def targets(rows, cells):
             dense["seconds"]["marching_cubes"] / dense["seconds"]["flying_edges"]))
         say("our XOR, the dense reference's being 1", ours["xor"] / dense["xor"], 1)
     if "hulls" in rows:
-        say("the local hulls' time, the surface's being 1",
-            rows["hulls"]["seconds"]["local_hulls"] / rows["hulls"]["seconds"]["surface"], 3)
+        def hulls(result):
+            return result["seconds"]["local_hulls"] / result["seconds"]["surface"]
+        say("the local hulls' time on clean silhouettes, the surface's being 1", hulls(rows["hulls"]), 3)
+        noise = options.size / 256.0
+        say("the same with contour noise of %g px" % noise,
+            hulls(stages("hulls", cells, options, "--noise-contour", noise, "--repeats", 1)), 6)
+    if options.threads != 1:
+        one, two = (seconds(stages("ours", cells, options, threads=threads)) for threads in (1, 2))
+        say("one thread's time, that of two being 1", one / two, 1.8, True)
     return said
 
 
@@ -138,7 +149,7 @@ def main():
              "%dx%d" % (options.size, options.size), "--quiet"])
         for cells in options.cells:
             rows = {side: measure(side, cells, options, folder) for side in sides if options.largest.get(side, cells) >= cells}
-            print("\n".join(table(rows, cells) + [""] + targets(rows, cells)), flush=True)
+            print("\n".join(table(rows, cells) + [""] + targets(rows, cells, options)), flush=True)
 
 
 if __name__ == "__main__":

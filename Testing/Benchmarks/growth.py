@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What each generation costs: carve and exact surface of a capture, by the Python classes, a process for each depth.
+
+    growth.py CAPTURE [--key CHANNEL:EXCESS] [--depths 7-11] [--pieces N] [--bounds ...]
+
+With --pieces the octree is made in pieces, one after another, and no surface is kept. The package vtksilhouette has to be on
+Python's path; memory is the operating system's account of the process.
+"""
+import argparse
+import json
+import resource
+import subprocess
+import sys
+import time
+
+
+def pipeline(options):
+    from vtksilhouette import (vtkSilhouetteCaptureReader, vtkSilhouetteExtractor, vtkSilhouetteOctreeSource,
+                               vtkVotingMarchingCubes)
+    reader, extractor = vtkSilhouetteCaptureReader(), vtkSilhouetteExtractor()
+    octree, cubes = vtkSilhouetteOctreeSource(), vtkVotingMarchingCubes()
+    reader.SetFileName(options.capture)
+    extractor.SetInputConnection(reader.GetOutputPort())
+    if options.key:
+        channel, excess = options.key.split(":")
+        extractor.SetKeyChannel({"red": 0, "green": 1, "blue": 2}[channel])
+        extractor.SetKeyExcess(float(excess))
+    extractor.LargestRegionOn()
+    octree.SetInputConnection(extractor.GetOutputPort())
+    cubes.SetInputConnection(0, octree.GetOutputPort(0))
+    cubes.SetInputConnection(1, octree.GetOutputPort(1))
+    return reader, extractor, octree, cubes
+
+
+def count(data, name):
+    return int(data.GetFieldData().GetAbstractArray(name).GetVariantValue(0).ToTypeUInt64())
+
+
+def one(options):
+    """One depth: seconds, octants, view tests, memory."""
+    reader, extractor, octree, cubes = pipeline(options)
+    extractor.Update()
+    octree.SetDepth(6)
+    octree.Update()  # views prepared; threads and libraries awake
+    octree.SetDepth(options.depth)
+    result = {"carve": 0.0, "surface": 0.0, "octants": 0, "view_tests": 0, "intersection": 0, "faces": 0}
+    for piece in range(options.pieces):
+        start = time.perf_counter()
+        octree.UpdatePiece(piece, options.pieces, 0)
+        middle = time.perf_counter()
+        cubes.UpdatePiece(piece, options.pieces, 0)
+        result["carve"] += middle - start
+        result["surface"] += time.perf_counter() - middle
+        grid = octree.GetOutput()
+        result["octants"] += count(grid, "OctantsTested")
+        result["view_tests"] += count(grid, "ViewTests")
+        result["intersection"] += count(grid, "IntersectionOctants")
+        result["faces"] += cubes.GetOutput().GetNumberOfPolys()
+    result["memory_mib"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+    print(json.dumps(result))
+
+
+def table(options):
+    rows = {}
+    for depth in options.depths:
+        rows[depth] = json.loads(subprocess.run([sys.executable, __file__, *sys.argv[1:], "--depth", str(depth)], check=True,
+                                                stdout=subprocess.PIPE).stdout.splitlines()[-1])
+    print("| depth | octants tested | view tests | on the surface | faces | carve | surface | time, of the depth before | "
+          "memory, MiB |\n| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
+    first = rows[options.depths[0]]
+    base = first["carve"] + first["surface"]
+    for depth, row in rows.items():
+        taken = row["carve"] + row["surface"]
+        before = rows.get(depth - 1)
+        print("| %d | %s | %s | %s | %s | %.3g | %.3g | %s | %.0f |" % (
+            depth, *(format(row[key], ",") for key in ("octants", "view_tests", "intersection", "faces")),
+            row["carve"] / base, row["surface"] / base,
+            "%.2f" % (taken / (before["carve"] + before["surface"])) if before else "", row["memory_mib"]))
+    print("\nCarve and surface as multiples of both at depth %d (%.3g s)." % (options.depths[0], base))
+
+
+def depths_of(text):
+    first, last = text.split("-") if "-" in text else (text, text)
+    return list(range(int(first), int(last) + 1))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("capture")
+    parser.add_argument("--key")
+    parser.add_argument("--depths", type=depths_of, default=list(range(7, 12)))
+    parser.add_argument("--pieces", type=int, default=1)
+    parser.add_argument("--depth", type=int, help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    one(options) if options.depth else table(options)
+
+
+if __name__ == "__main__":
+    main()
