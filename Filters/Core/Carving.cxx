@@ -2,6 +2,7 @@
 #include "Carving.h"
 
 #include "Bits.h"
+#include "FirstTouch.h"
 #include "OctantTest.h"
 
 #include <algorithm>
@@ -85,8 +86,9 @@ public:
   {
     std::array<Trial, 8> trials;
     trials.fill({ inherited, 0, 0, false });
-    thread_local std::vector<std::uint16_t> undecided;
-    undecided.resize(std::max(undecided.size(), 8 * viewCount));
+    thread_local std::vector<std::uint16_t> kept;
+    kept.resize(std::max(kept.size(), 8 * viewCount));
+    std::uint16_t* undecided = kept.data();
     const OctantBox box{ this->lowest(parent, 2 * this->Size), 2 * this->Size };
     std::array<ViewRelation, 8> relations;
     unsigned left = 0xffu;
@@ -98,13 +100,13 @@ public:
       for (unsigned children = left; children != 0; children &= children - 1)
       {
         const int c = lowestBit(children);
-        this->hear(view, relations[c], trials[c], &undecided[c * viewCount], part);
+        this->hear(view, relations[c], trials[c], undecided + c * viewCount, part);
         left &= ~(unsigned(trials[c].carved) << c);
       }
     }
     for (unsigned c = 0; c < 8; ++c)
     {
-      states[c] = this->settle(parent << 3 | c, trials[c], &undecided[c * viewCount], part);
+      states[c] = this->settle(parent << 3 | c, trials[c], undecided + c * viewCount, part);
     }
   }
 
@@ -253,7 +255,7 @@ public:
     {
       Front parents = std::move(front);
       Generation& generation = octree.generations[g];
-      generation.code.resize(8 * parents.size());
+      resizeSideBySide(generation.code, 8 * parents.size(), this->Exec);
       generation.state.resize(8 * parents.size());
       front = this->test(octree, g, parents.size(),
         [&](std::size_t i, const OctantTester& tester, Part& part)

@@ -2,6 +2,7 @@
 #include "CornerShell.h"
 
 #include "Bits.h"
+#include "FirstTouch.h"
 #include "RadixSort.h"
 
 #include <algorithm>
@@ -162,7 +163,8 @@ private:
         }
       });
     std::partial_sum(end.begin(), end.end(), end.begin());
-    std::vector<Share> shares(end.back());
+    std::vector<Share> shares;
+    resizeSideBySide(shares, end.back(), this->Exec);
     this->forBlocks(this->Cells.size(),
       [&](std::size_t b)
       {
@@ -203,7 +205,7 @@ private:
 
   void nameCorners()
   {
-    this->Shell.corners.resize(this->FirstCorner.back());
+    resizeSideBySide(this->Shell.corners, this->FirstCorner.back(), this->Exec);
     this->forBlocks(this->Corners.size(),
       [&](std::size_t b)
       {
@@ -218,7 +220,7 @@ private:
   void nameCellCorners()
   {
     static const CornerPlaces places;
-    this->Shell.cellCorners.resize(this->Shell.cells.size());
+    resizeSideBySide(this->Shell.cellCorners, this->Shell.cells.size(), this->Exec);
     this->forBlocks(this->Cells.size(),
       [&](std::size_t b)
       {
@@ -288,6 +290,7 @@ std::vector<std::uint64_t> leafCells(const Octree& octree, OctantState state)
   {
     return cells;
   }
+  cells.reserve(octree.count(state, octree.lattice.depth));
   const auto& last = octree.last();
   for (std::size_t i = 0; i < last.size(); ++i)
   {

@@ -3,12 +3,14 @@
 
 #include "LeastNumbers.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace silhouette
 {
 
-CellViews::CellViews(const Octree& octree, const CornerShell& shell, const LatticeViews& views)
+CellViews::CellViews(
+  const Octree& octree, const CornerShell& shell, const LatticeViews& views, Execution& execution)
   : Source(&octree)
   , All(std::size_t(views.size()))
 {
@@ -19,25 +21,30 @@ CellViews::CellViews(const Octree& octree, const CornerShell& shell, const Latti
   }
   const Generation& parents = octree.generations[std::size_t(octree.lattice.depth) - 1];
   this->Parents.resize(shell.cells.size(), Unknown);
-  std::size_t at = 0;
-  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
-  {
-    const std::uint64_t code = shell.cells[cell] >> 3;
-    while (at < parents.size() && parents.code[at] < code)
+  execution.forRanges(shell.cells.size(), 4096,
+    [&](std::size_t first, std::size_t last)
     {
-      ++at;
-    }
-    if (at < parents.size() && parents.code[at] == code && parents.state[at] == OctantState::Intersection)
-    {
-      this->Parents[cell] = parents.childBlock[at];
-    }
-  }
+      auto at = std::lower_bound(parents.code.begin(), parents.code.end(), shell.cells[first] >> 3);
+      for (std::size_t cell = first; cell < last; ++cell)
+      {
+        const std::uint64_t code = shell.cells[cell] >> 3;
+        while (at != parents.code.end() && *at < code)
+        {
+          ++at;
+        }
+        const auto parent = std::size_t(at - parents.code.begin());
+        if (at != parents.code.end() && *at == code && parents.state[parent] == OctantState::Intersection)
+        {
+          this->Parents[cell] = parents.childBlock[parent];
+        }
+      }
+    });
 }
 
 std::vector<std::uint16_t> cornerVotes(
   const CornerShell& shell, const CellViews& cellViews, const LatticeViews& views, Execution& execution)
 {
-  LeastNumbers lowestCell(shell.corners.size());
+  LeastNumbers lowestCell(shell.corners.size(), execution);
   execution.forRanges(shell.cells.size(), 4096,
     [&](std::size_t first, std::size_t last)
     {

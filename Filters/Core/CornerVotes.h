@@ -16,7 +16,7 @@ class CellViews
 {
 public:
   /** Where the octree was carved from other views than these, or does not know any more, all of them are asked. */
-  CellViews(const Octree& octree, const CornerShell& shell, const LatticeViews& views);
+  CellViews(const Octree& octree, const CornerShell& shell, const LatticeViews& views, Execution& execution);
 
   ViewsToAsk operator[](std::size_t cell) const
   {

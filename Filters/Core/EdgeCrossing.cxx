@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EdgeCrossing.h"
 
+#include <array>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -193,7 +194,8 @@ double exactCrossing(
 double exactCrossing(const LatticeViews& views, const ViewsToAsk& ask, const LatticePoint& inside,
   const LatticePoint& outside, int backgroundVotes)
 {
-  thread_local Intervals all, own;
+  thread_local std::array<Intervals, 2> kept; // so that their memory is
+  auto& [all, own] = kept;
   const int allowed = backgroundVotes - ask.backgroundVotes;
   all.clear();
   double crossing = 1.0;

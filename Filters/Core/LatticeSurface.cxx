@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LatticeSurface.h"
 
+#include "FirstTouch.h"
 #include "LeastNumbers.h"
 #include "MarchingCubesTable.h"
 
@@ -29,7 +30,7 @@ public:
     : Shell(shell)
     , Inside(inside)
     , Exec(execution)
-    , EdgeCell(3 * shell.corners.size())
+    , EdgeCell(3 * shell.corners.size(), execution)
     , FirstEdge(shell.corners.size() + 1, 0)
   {
   }
@@ -90,7 +91,7 @@ private:
       [&](std::size_t c)
       { this->FirstEdge[c + 1] = this->crossed(3 * c) + this->crossed(3 * c + 1) + this->crossed(3 * c + 2); });
     std::partial_sum(this->FirstEdge.begin(), this->FirstEdge.end(), this->FirstEdge.begin());
-    this->Surface.edges.resize(this->FirstEdge.back());
+    resizeSideBySide(this->Surface.edges, this->FirstEdge.back(), this->Exec);
     this->forEach(this->Shell.corners.size(),
       [&](std::size_t c)
       {
@@ -127,7 +128,8 @@ private:
   void makeTriangles()
   {
     const auto& table = marchingCubesTable();
-    this->Surface.triangles.resize(this->Shell.cells.empty() ? 0 : this->Surface.cellEnd.back());
+    resizeSideBySide(
+      this->Surface.triangles, this->Shell.cells.empty() ? 0 : this->Surface.cellEnd.back(), this->Exec);
     this->forEach(this->Shell.cells.size(),
       [&](std::size_t cell)
       {

@@ -4,9 +4,11 @@
  */
 #pragma once
 
+#include "Execution.h"
+
 #include <atomic>
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 namespace silhouette
 {
@@ -16,9 +18,17 @@ class LeastNumbers
 public:
   static constexpr std::uint32_t None = 0xffffffffu;
 
-  explicit LeastNumbers(std::size_t size)
-    : Complements(size)
+  LeastNumbers(std::size_t size, Execution& execution)
+    : Complements(new std::atomic<std::uint32_t>[size])
   {
+    execution.forRanges(size, 16384,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          this->Complements[i].store(~None, std::memory_order_relaxed);
+        }
+      });
   }
 
   /** Name `number` for thing i. */
@@ -35,7 +45,7 @@ public:
   std::uint32_t operator[](std::size_t i) const { return ~this->Complements[i].load(std::memory_order_relaxed); }
 
 private:
-  std::vector<std::atomic<std::uint32_t>> Complements; // 0 at first, which is None
+  std::unique_ptr<std::atomic<std::uint32_t>[]> Complements;
 };
 
 } // namespace silhouette

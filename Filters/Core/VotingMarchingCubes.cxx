@@ -4,6 +4,7 @@
 #include "CornerShell.h"
 #include "CornerVotes.h"
 #include "EdgeCrossing.h"
+#include "FirstTouch.h"
 #include "LatticeSurface.h"
 
 #include <algorithm>
@@ -98,7 +99,7 @@ VotingSurface votingMarchingCubes(
   const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
   execution.checkpoint(0.15);
 
-  const CellViews cellViews(octree, shell, latticeViews);
+  const CellViews cellViews(octree, shell, latticeViews, execution);
   Phase voting(execution, 0.15, 0.5);
   const std::vector<std::uint16_t> votes = cornerVotes(shell, cellViews, latticeViews, voting);
   LatticeSurface contoured = contour(shell, labels(octree.lattice, shell, votes, required, execution), execution);
@@ -107,8 +108,8 @@ VotingSurface votingMarchingCubes(
   countLost(contoured, surface);
   execution.checkpoint(0.6);
   surface.mesh.triangles = std::move(contoured.triangles);
-  surface.mesh.points.resize(contoured.edges.size());
-  surface.insideVotes.resize(contoured.edges.size());
+  resizeSideBySide(surface.mesh.points, contoured.edges.size(), execution);
+  resizeSideBySide(surface.insideVotes, contoured.edges.size(), execution);
   Phase placing(execution, 0.6, 1.0);
   forEach(placing, contoured.edges.size(),
     [&](std::size_t e)
