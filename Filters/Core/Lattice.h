@@ -93,7 +93,7 @@ struct Lattice
   int depth = 0; ///< number of subdivisions, 1 to MaximumDepth
 
   std::int32_t cells() const { return std::int32_t(1) << this->depth; } ///< leaf octants a side
-  double leafEdge() const { return std::ldexp(this->root.edge, -this->depth); }
+  double leafEdge() const { return this->root.edge / double(this->cells()); } // exact: by a power of two
   /** The one formula for a coordinate: lattice coordinate `t` (not necessarily whole) along `axis`. */
   double coordinate(int axis, double t) const { return this->root.origin[axis] + this->leafEdge() * t; }
   Eigen::Vector3d position(const LatticePoint& p) const

@@ -46,6 +46,42 @@ TEST(CornerShell, SharesTheCornersOfItsCells)
   EXPECT_EQ(shell.find(mortonCode({ 100, 100, 100 })), -1);
 }
 
+TEST(CornerShell, OfNoCellsAndOfTheFurthestOnes)
+{
+  Execution execution;
+  const CornerShell none = makeCornerShell({}, execution);
+  EXPECT_TRUE(none.cells.empty() && none.corners.empty() && none.cellCorners.empty());
+  const std::int32_t last = (std::int32_t(1) << MaximumDepth) - 1;
+  const CornerShell two = makeCornerShell({ 0, mortonCode({ last, last, last }) }, execution);
+  ASSERT_EQ(two.corners.size(), 16u);
+  for (std::size_t cell = 0; cell < 2; ++cell)
+  {
+    for (int c = 0; c < 8; ++c)
+    {
+      EXPECT_EQ(two.corners[two.cellCorners[cell][c]], mortonCode(fromMorton(two.cells[cell]) + cornerOffset(c)));
+    }
+  }
+}
+
+TEST(CornerShell, SameBytesForAnyNumberOfThreads)
+{
+  Random random(6);
+  std::set<std::uint64_t> cells;
+  for (int n = 0; n < 30000; ++n)
+  {
+    cells.insert(mortonCode({ random.below(60), random.below(60), random.below(500) }));
+  }
+  Execution execution;
+  const CornerShell one = makeCornerShell({ cells.begin(), cells.end() }, execution);
+  for (const int threads : { 2, 8 })
+  {
+    ThreadedExecution threaded(threads);
+    const CornerShell many = makeCornerShell({ cells.begin(), cells.end() }, threaded);
+    EXPECT_EQ(many.corners, one.corners);
+    EXPECT_EQ(many.cellCorners, one.cellCorners);
+  }
+}
+
 TEST(CornerShell, LeafCellsAreTheLastGenerationOfOneState)
 {
   const PreparedViews prepared = prepareViews(viewsOf(sphereMesh(3, 0.9), swayingRing(8, 96), 96));

@@ -5,8 +5,10 @@
 #include "vtkSilhouetteOctreeSource.h"
 
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkFeatureEdges.h"
 #include "vtkHyperTreeGrid.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnsignedShortArray.h"
 
 using namespace silhouette::testing;
@@ -170,6 +172,42 @@ TEST(VtkVotingMarchingCubes, PreparesViewsThatCameAnotherWay)
   EXPECT_EQ(bytes(other->GetOutput()->GetPoints()->GetData()), expected);
   image->Modified();
   expectError(other, {"carved from other views"});
+}
+
+/** The octree that travels with the grid, and the one that is read from its arrays: the same surface. */
+TEST(VtkVotingMarchingCubes, ReadsAGridThatWasCopiedOrChanged)
+{
+  Pipeline pipeline;
+  pipeline.surface->Update();
+  vtkPolyData* first = pipeline.surface->GetOutput();
+  const std::string expected =
+      bytes(first->GetPoints()->GetData()) + bytes(first->GetPointData()->GetArray("InsideVotes"));
+  const double octants = field(first, "IntersectionOctants");
+
+  vtkHyperTreeGrid* grid = pipeline.octree->GetOutput();
+  vtkNew<vtkHyperTreeGrid> copy;
+  copy->DeepCopy(grid);
+  vtkNew<vtkVotingMarchingCubes> other;
+  other->SetInputDataObject(0, copy);
+  other->SetViewsData(pipeline.octree->GetViewsOutput());
+  other->Update();
+  vtkPolyData* surface = other->GetOutput();
+  EXPECT_EQ(bytes(surface->GetPoints()->GetData()) + bytes(surface->GetPointData()->GetArray("InsideVotes")),
+            expected);
+
+  // One octant of the last generation less: whoever says that the grid changed is believed.
+  auto* states = vtkUnsignedCharArray::SafeDownCast(grid->GetCellData()->GetArray("State"));
+  auto* generations = vtkUnsignedCharArray::SafeDownCast(grid->GetCellData()->GetArray("Generation"));
+  vtkIdType cell = 0;
+  while (generations->GetValue(cell) != 5 || states->GetValue(cell) != 1)
+  {
+    ++cell;
+  }
+  states->SetValue(cell, 0);
+  states->Modified();
+  other->SetInputDataObject(0, grid);
+  other->Update();
+  EXPECT_EQ(field(other->GetOutput(), "IntersectionOctants"), octants - 1);
 }
 
 TEST(VtkVotingMarchingCubes, RefusesWhatDoesNotBelongTogether)

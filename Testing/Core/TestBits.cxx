@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bits.h"
+
+#include "FirstTouch.h"
+#include "LeastNumbers.h"
+#include "RadixSort.h"
+
+#include "CarvingTestCaptures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+TEST(Bits, CountsLowestAndHighestAreThoseOfALoop)
+{
+  Random random(1);
+  for (int trial = 0; trial < 2000; ++trial)
+  {
+    const std::uint64_t bits = trial < 64 ? std::uint64_t(1) << trial : random.next() >> random.below(64);
+    int count = 0, lowest = -1, highest = -1;
+    for (int n = 0; n < 64; ++n)
+    {
+      if (bits >> n & 1u)
+      {
+        ++count;
+        lowest = lowest < 0 ? n : lowest;
+        highest = n;
+      }
+    }
+    ASSERT_EQ(countBits(bits), count);
+    if (bits != 0)
+    {
+      ASSERT_EQ(lowestBit(bits), lowest);
+      ASSERT_EQ(highestBit(bits), highest);
+    }
+  }
+  EXPECT_EQ(countBits(0), 0);
+  EXPECT_EQ(countBits(~std::uint64_t(0)), 64);
+}
+
+TEST(RadixSort, IsAStableSortByAsManyBitsAsAreNamed)
+{
+  Random random(2);
+  for (const int bits : { 0, 1, 11, 12, 40, 64 })
+  {
+    std::vector<std::pair<std::uint64_t, int>> items;
+    for (int i = 0; i < 3000; ++i)
+    {
+      const std::uint64_t mask = bits == 0 ? 0 : ~std::uint64_t(0) >> (64 - bits);
+      items.emplace_back(random.next() >> random.below(64) & mask, i);
+    }
+    auto expected = items;
+    std::stable_sort(
+      expected.begin(), expected.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    radixSort(items, bits, [](const auto& item) { return item.first; });
+    EXPECT_EQ(items, expected) << bits << " bits";
+  }
+}
+
+TEST(LeastNumbers, KeepsTheLeastWhateverTheOrder)
+{
+  for (const int threads : { 1, 2, 8 })
+  {
+    ThreadedExecution execution(threads);
+    LeastNumbers least(1000, execution);
+    execution.forRanges(100000, 1,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          least.lower(i * 7919 % 999, std::uint32_t(100000 - i)); // the last of each thing is the least
+        }
+      });
+    std::vector<std::uint32_t> expected(1000, LeastNumbers::None);
+    for (std::size_t i = 0; i < 100000; ++i)
+    {
+      std::uint32_t& own = expected[i * 7919 % 999];
+      own = std::min(own, std::uint32_t(100000 - i));
+    }
+    for (std::size_t i = 0; i < 1000; ++i)
+    {
+      ASSERT_EQ(least[i], expected[i]);
+    }
+  }
+}
+
+TEST(FirstTouch, IsResize)
+{
+  for (const int threads : { 1, 2, 8 })
+  {
+    ThreadedExecution execution(threads);
+    for (const std::size_t n : { std::size_t(0), std::size_t(1), std::size_t(5000), std::size_t(300000) })
+    {
+      std::vector<std::uint32_t> values;
+      resizeSideBySide(values, n, execution);
+      EXPECT_EQ(values, std::vector<std::uint32_t>(n, 0u));
+    }
+  }
+}
