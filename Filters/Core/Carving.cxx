@@ -51,6 +51,7 @@ struct Trial
   int mixed = 0;
   std::size_t viewCount = 0;
   bool carved = false;
+  std::uint16_t among = 0; ///< which of the first 16 views that it was asked of are undecided
 };
 
 /** Tests octants; holds nothing that changes. */
@@ -80,12 +81,15 @@ public:
     return this->settle(code, trial, undecided.data(), part);
   }
 
-  /** Test the eight children of an octant, given what they inherit and the views that are undecided about it. */
+  /**
+   * Test the eight children of an octant, given what they inherit and the views that are undecided about it. `among`,
+   * where it is given, learns which of these are undecided about each child.
+   */
   void children(std::uint64_t parent, const Inheritance& inherited, const std::uint16_t* views, std::size_t viewCount,
-    OctantState* states, Part& part) const
+    OctantState* states, std::uint16_t* among, Part& part) const
   {
     std::array<Trial, 8> trials;
-    trials.fill({ inherited, 0, 0, false });
+    trials.fill({ inherited, 0, 0, false, 0 });
     thread_local std::vector<std::uint16_t> kept;
     kept.resize(std::max(kept.size(), 8 * viewCount));
     std::uint16_t* undecided = kept.data();
@@ -100,13 +104,18 @@ public:
       for (unsigned children = left; children != 0; children &= children - 1)
       {
         const int c = lowestBit(children);
-        this->hear(view, relations[c], trials[c], undecided + c * viewCount, part);
+        const bool open = this->hear(view, relations[c], trials[c], undecided + c * viewCount, part);
+        trials[c].among |= std::uint16_t(n < ViewsToAsk::Chosen ? unsigned(open) << n : 0u);
         left &= ~(unsigned(trials[c].carved) << c);
       }
     }
     for (unsigned c = 0; c < 8; ++c)
     {
       states[c] = this->settle(parent << 3 | c, trials[c], undecided + c * viewCount, part);
+      if (among)
+      {
+        among[c] = trials[c].among;
+      }
     }
   }
 
@@ -117,20 +126,23 @@ private:
     return { p.i * size, p.j * size, p.k * size };
   }
 
-  /** One more view has spoken. */
-  void hear(std::uint16_t view, ViewRelation relation, Trial& trial, std::uint16_t* undecided, Part& part) const
+  /** One more view has spoken: is it undecided? */
+  bool hear(std::uint16_t view, ViewRelation relation, Trial& trial, std::uint16_t* undecided, Part& part) const
   {
     trial.own.seen |= relation == ViewRelation::Inside || relation == ViewRelation::Background;
     if (relation == ViewRelation::Background && ++trial.own.backgroundVotes > this->BackgroundVotes)
     {
       ++part.carvedByView[view];
       trial.carved = true;
+      return false;
     }
-    else if (relation == ViewRelation::Mixed || relation == ViewRelation::Partial)
+    if (relation == ViewRelation::Mixed || relation == ViewRelation::Partial)
     {
       trial.mixed += relation == ViewRelation::Mixed;
       undecided[trial.viewCount++] = view;
+      return true;
     }
+    return false;
   }
 
   /** All have: the octant's state, and its place in the front where it is to be subdivided. */
@@ -257,6 +269,7 @@ public:
       Generation& generation = octree.generations[g];
       resizeSideBySide(generation.code, 8 * parents.size(), this->Exec);
       generation.state.resize(8 * parents.size());
+      std::vector<std::uint16_t> among(g == depth ? 8 * parents.size() : 0);
       front = this->test(octree, g, parents.size(),
         [&](std::size_t i, const OctantTester& tester, Part& part)
         {
@@ -266,11 +279,12 @@ public:
           }
           const std::size_t begin = parents.viewBegin(i);
           tester.children(parents.code[i], parents.inheritance[i], parents.views.data() + begin,
-            parents.viewEnd[i] - begin, &generation.state[8 * i], part);
+            parents.viewEnd[i] - begin, &generation.state[8 * i], among.empty() ? nullptr : &among[8 * i], part);
         });
       if (g == depth)
       {
         octree.undecided = keep(parents);
+        octree.undecided.among = std::move(among);
       }
     }
     octree.statistics.carvedByView = this->Carved;

@@ -20,7 +20,7 @@ CellViews::CellViews(
     return;
   }
   const Generation& parents = octree.generations[std::size_t(octree.lattice.depth) - 1];
-  this->Parents.resize(shell.cells.size(), Unknown);
+  this->Parents.resize(shell.cells.size());
   execution.forRanges(shell.cells.size(), 4096,
     [&](std::size_t first, std::size_t last)
     {
@@ -35,7 +35,13 @@ CellViews::CellViews(
         const auto parent = std::size_t(at - parents.code.begin());
         if (at != parents.code.end() && *at == code && parents.state[parent] == OctantState::Intersection)
         {
-          this->Parents[cell] = parents.childBlock[parent];
+          const std::uint32_t rank = parents.childBlock[parent];
+          // Where nobody else is known to see the cell, those that look away from it must not go unheard.
+          // Of a carved octant the views after the one that carved it were not asked.
+          const std::size_t octant = 8 * std::size_t(rank) + (shell.cells[cell] & 7);
+          const bool choose = octree.undecided.seen[rank] != 0 && octree.backgroundVotes == 0 &&
+            octree.last().state[octant] != OctantState::Background;
+          this->Parents[cell] = { rank, choose ? octree.undecided.among[octant] : std::uint16_t(0xffff) };
         }
       }
     });

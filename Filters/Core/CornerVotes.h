@@ -20,7 +20,7 @@ public:
 
   ViewsToAsk operator[](std::size_t cell) const
   {
-    const std::uint32_t parent = this->Parents.empty() ? Unknown : this->Parents[cell];
+    const std::uint32_t parent = this->Parents.empty() ? Unknown : this->Parents[cell].rank;
     if (parent == Unknown)
     {
       return { this->All.data(), this->All.size(), 0, false };
@@ -28,15 +28,21 @@ public:
     const UndecidedViews& undecided = this->Source->undecided;
     const std::size_t first = undecided.first[parent];
     return { undecided.views.data() + first, undecided.first[parent + 1] - first, undecided.backgroundVotes[parent],
-      undecided.seen[parent] != 0 };
+      undecided.seen[parent] != 0, this->Parents[cell].among };
   }
 
 private:
   static constexpr std::uint32_t Unknown = 0xffffffffu;
 
+  struct Parent
+  {
+    std::uint32_t rank = Unknown;  ///< among the intersection octants
+    std::uint16_t among = 0xffff; ///< which of its views need be asked about the cell
+  };
+
   const Octree* Source;
   std::vector<std::uint16_t> All;
-  std::vector<std::uint32_t> Parents; ///< rank of each cell's parent among the intersection octants; or nothing
+  std::vector<Parent> Parents; ///< of each cell; or nothing
 };
 
 /**

@@ -195,24 +195,25 @@ double exactCrossing(const LatticeViews& views, const ViewsToAsk& ask, const Lat
   const LatticePoint& outside, int backgroundVotes)
 {
   thread_local std::array<Intervals, 2> kept; // so that their memory is
-  auto& [all, own] = kept;
+  Intervals& all = kept[0];
+  Intervals& own = kept[1];
   const int allowed = backgroundVotes - ask.backgroundVotes;
   all.clear();
   double crossing = 1.0;
-  for (std::size_t n = 0; n < ask.count; ++n)
-  {
-    const int view = ask.views[n];
-    own.clear();
-    backgroundIntervals(views.view(view), views.projection(view), inside, outside, crossing, allowed == 0, own);
-    if (allowed == 0)
+  ask.forEach(
+    [&](int view)
     {
-      crossing = own.empty() ? crossing : std::min(crossing, own.front().first);
-    }
-    else
-    {
-      all.insert(all.end(), own.begin(), own.end());
-    }
-  }
+      own.clear();
+      backgroundIntervals(views.view(view), views.projection(view), inside, outside, crossing, allowed == 0, own);
+      if (allowed == 0)
+      {
+        crossing = own.empty() ? crossing : std::min(crossing, own.front().first);
+      }
+      else
+      {
+        all.insert(all.end(), own.begin(), own.end());
+      }
+    });
   return allowed == 0 ? crossing : firstExcess(all, allowed);
 }
 

@@ -6,6 +6,7 @@
  */
 #pragma once
 
+#include "Bits.h"
 #include "Lattice.h"
 
 #include <cstddef>
@@ -59,15 +60,37 @@ struct UndecidedViews
   std::vector<std::uint16_t> views;         ///< ascending for each octant
   std::vector<std::uint16_t> backgroundVotes; ///< views that call all of the octant background
   std::vector<std::uint8_t> seen;           ///< 1 where some view sees all of the octant
+  /** For each octant of the last generation which of the first 16 of its parent's views are undecided about itself. */
+  std::vector<std::uint16_t> among;
 };
 
 /** Whom to ask about the points of an octant, and what the other views have said of all of it. */
 struct ViewsToAsk
 {
+  static constexpr std::size_t Chosen = 16; ///< so many views are chosen from one by one
+
   const std::uint16_t* views = nullptr;
   std::size_t count = 0;
-  int backgroundVotes = 0; ///< of the others
-  bool seen = false;       ///< one of the others sees all of the octant
+  int backgroundVotes = 0;     ///< of the others
+  bool seen = false;           ///< one of the others sees all of the octant
+  std::uint16_t among = 0xffff; ///< where there are at most 16 views: which of them need be asked
+
+  /** Call ask(view) for each view that need be asked, in order. */
+  template <typename Ask> void forEach(const Ask& ask) const
+  {
+    if (this->count > Chosen)
+    {
+      for (std::size_t n = 0; n < this->count; ++n)
+      {
+        ask(int(this->views[n]));
+      }
+      return;
+    }
+    for (unsigned left = this->among & ((1u << this->count) - 1); left != 0; left &= left - 1)
+    {
+      ask(int(this->views[lowestBit(left)]));
+    }
+  }
 };
 
 struct Octree

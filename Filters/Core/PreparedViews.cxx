@@ -248,12 +248,13 @@ int LatticeViews::insideVotes(const LatticePoint& p, const ViewsToAsk& ask) cons
 {
   int background = ask.backgroundVotes;
   bool seen = ask.seen;
-  for (std::size_t n = 0; n < ask.count; ++n)
-  {
-    const Vote vote = this->vote(ask.views[n], p);
-    background += vote == Vote::Background;
-    seen |= vote != Vote::Abstain;
-  }
+  ask.forEach(
+    [&](int view)
+    {
+      const Vote vote = this->vote(view, p);
+      background += vote == Vote::Background;
+      seen |= vote != Vote::Abstain;
+    });
   return seen ? this->size() - background : 0;
 }
 

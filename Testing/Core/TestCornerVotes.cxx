@@ -76,17 +76,19 @@ TEST(CornerVotes, FewerViewsAreAskedAndTheOthersAreSettled)
   for (std::size_t cell = 0; cell < scene.shell.cells.size(); ++cell)
   {
     const ViewsToAsk ask = cellViews[cell];
-    asked += ask.count;
+    std::vector<bool> isAsked(std::size_t(scene.views.size()), false);
+    ask.forEach([&](int view) { isAsked[view] = true; });
+    asked += std::size_t(std::count(isAsked.begin(), isAsked.end(), true));
     for (int i = 0; i < scene.views.size(); ++i)
     {
-      for (int c = 0; c < 8 && !std::binary_search(ask.views, ask.views + ask.count, std::uint16_t(i)); ++c)
+      for (int c = 0; c < 8 && !isAsked[i]; ++c)
       {
         const Vote vote = scene.views.vote(i, fromMorton(scene.shell.corners[scene.shell.cellCorners[cell][c]]));
         ASSERT_NE(vote, Vote::Background) << "view " << i << ", cell " << cell;
       }
     }
   }
-  EXPECT_LT(asked, scene.shell.cells.size() * std::size_t(scene.views.size()) * 9 / 10);
+  EXPECT_LT(asked, scene.shell.cells.size() * std::size_t(scene.views.size()) * 3 / 4);
 }
 
 TEST(CornerVotes, AllViewsAreAskedWhereNothingIsKnown)
