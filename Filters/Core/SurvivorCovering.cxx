@@ -302,10 +302,34 @@ private:
     }
   }
 
+  /** A component of the solid at the survivors around a lattice point, or 0xffffffff. */
+  std::uint32_t componentAt(std::uint64_t point)
+  {
+    std::array<std::uint32_t, 8> cells;
+    const int count = this->Labels.cellsAround(fromMorton(point), cells);
+    for (int n = 0; n < count; ++n)
+    {
+      for (const std::uint32_t corner : this->shell().cellCorners[cells[n]])
+      {
+        if (this->inside(corner))
+        {
+          return this->component(corner);
+        }
+      }
+    }
+    return 0xffffffffu;
+  }
+
   void build(const std::vector<Bridge>& bridges)
   {
     for (const auto& bridge : bridges)
     {
+      // Corrected labels may have joined already what the survivors leave apart.
+      const std::uint32_t from = this->componentAt(bridge.front());
+      if (from != 0xffffffffu && from == this->componentAt(bridge.back()))
+      {
+        continue;
+      }
       for (const std::uint64_t point : bridge)
       {
         const auto corner = this->shell().find(point);
