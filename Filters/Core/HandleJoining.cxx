@@ -2,6 +2,7 @@
 #include "HandleJoining.h"
 
 #include "Error.h"
+#include "ShellPaths.h"
 #include "SimplePoint.h"
 
 #include <algorithm>
@@ -25,13 +26,6 @@ void check(const HandleJoiningOptions& options)
   }
 }
 
-/** Are two of the 27 points, by their numbers, joined by a lattice edge or the diagonal of a lattice square? */
-bool isBeside(int n)
-{
-  const int differing = (n % 3 != 1) + (n / 3 % 3 != 1) + (n / 9 != 1);
-  return differing == 1 || differing == 2;
-}
-
 class Joining
 {
 public:
@@ -40,7 +34,7 @@ public:
     , Loop(loop)
     , Taken(labels.inside())
     , From(Taken.size(), Nobody)
-    , Seen(Taken.size(), 0)
+    , Paths(labels.shell(), Taken)
   {
   }
 
@@ -102,7 +96,7 @@ private:
     std::vector<std::uint32_t> parts(numbers.inside, Nobody); // a corner of each, of the shell
     for (int n = 0; n < 27; ++n)
     {
-      const bool counts = numbers.insideComponent[n] >= 0 && around[n] >= 0 && isBeside(n) &&
+      const bool counts = numbers.insideComponent[n] >= 0 && around[n] >= 0 && isBesideCentre(n) &&
         (among.empty() || std::find(among.begin(), among.end(), std::uint32_t(around[n])) != among.end());
       if (counts && parts[numbers.insideComponent[n]] == Nobody)
       {
@@ -118,7 +112,7 @@ private:
     {
       for (std::size_t b = a + 1; b < parts.size(); ++b)
       {
-        if (this->meet(parts[a], parts[b]))
+        if (this->Paths.meet(parts[a], parts[b], this->Loop))
         {
           return true;
         }
@@ -144,47 +138,20 @@ private:
     }
   }
 
-  /** Is there a way of at most the loop's length along the shell between two of its corners, through what was taken? */
-  bool meet(std::uint32_t a, std::uint32_t b)
-  {
-    ++this->Round;
-    std::vector<std::uint32_t> now = { a }, next;
-    this->Seen[a] = this->Round;
-    for (int step = 0; step <= this->Loop && !now.empty(); ++step)
-    {
-      next.clear();
-      for (const std::uint32_t corner : now)
-      {
-        if (corner == b)
-        {
-          return true;
-        }
-        for (int n = 0; n < 27; ++n)
-        {
-          const std::ptrdiff_t other =
-            isBeside(n) ? this->Labels.shell().find(mortonCode(neighbourOf(fromMorton(this->Labels.shell().corners[corner]), n))) : -1;
-          if (other >= 0 && this->Taken[other] && this->Seen[other] != this->Round)
-          {
-            this->Seen[other] = this->Round;
-            next.push_back(std::uint32_t(other));
-          }
-        }
-      }
-      now.swap(next);
-    }
-    return false;
-  }
-
   const LatticeLabels& Labels;
   int Loop;
   std::vector<std::uint8_t> Taken;
   std::vector<std::uint32_t> From; ///< towards the solid
-  std::vector<std::uint32_t> Seen;
-  std::uint32_t Round = 0;
+  ShellPaths Paths;
   std::vector<std::uint32_t> Joints;
 };
 
 } // namespace
+
+int loopSteps(const Lattice& lattice, const HandleJoiningOptions& options)
+{
+  return int(std::min(options.loop, 1e3) * lattice.cells());
+}
 
 std::vector<std::uint64_t> handleJoints(
   const LatticeLabels& labels, double deficit, const HandleJoiningOptions& options, Execution& execution)
@@ -202,7 +169,7 @@ std::vector<std::uint64_t> handleJoints(
   }
   std::stable_sort(corners.begin(), corners.end(),
     [&](std::uint32_t a, std::uint32_t b) { return labels.support()[a] > labels.support()[b]; });
-  Joining joining(labels, int(std::min(options.loop, 1e6) * labels.octree().lattice.cells()));
+  Joining joining(labels, loopSteps(labels.octree().lattice, options));
   for (std::size_t n = 0; n < corners.size(); ++n)
   {
     if (n % 4096 == 0)

@@ -18,11 +18,14 @@ struct HandleJoiningOptions
   /** Octants for each octant of deficit, 0 or more: how far outside by the field a joint may lie; larger joins more. */
   double reach = 1.0;
   /**
-   * Share of the lattice's cells along a side, 0 or more: ends with a shorter way between them through the solid are left apart; larger joins
-   * less.
+   * Share of the lattice's cells along a side, 0 or more: ends with a shorter way between them through the solid are left apart, and need no bridge; larger
+   * joins less.
    */
   double loop = 1.0 / 3.0;
 };
+
+/** `loop` in steps of the lattice. */
+int loopSteps(const Lattice& lattice, const HandleJoiningOptions& options);
 
 /**
  * The corners of the shell to be labelled inside, ascending, for labels that a field was made for; none for others. The solid grows by

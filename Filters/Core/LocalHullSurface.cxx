@@ -284,7 +284,7 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
 {
   surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
   execution.checkpoint(0.1);
-  CoveringResult covering = coverSurvivors(labels, survivors.bridges);
+  CoveringResult covering = coverSurvivors(labels, survivors.bridges, loopSteps(labels.octree().lattice, options.handles));
   surface.coveredOctants = covering.coveredCells.size();
   surface.coveringCorners = covering.coveringCorners.size();
   execution.checkpoint(0.3);
