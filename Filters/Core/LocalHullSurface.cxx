@@ -401,6 +401,7 @@ LocalHullSurface coveredSurface(const Mesh& imperfect, const Octree& octree, con
   plain.mode = LocalHullMode::Robust;
   plain.islandShare = 0.0;
   plain.thinHulls = false;
+  plain.tunnels.fillTunnels = false;
   return localHullSurface(imperfect, octree, views, plain, execution);
 }
 
