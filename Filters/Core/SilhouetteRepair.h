@@ -30,8 +30,8 @@ struct SilhouetteRepairOptions
    */
   double speckleShare = 1e-4;
   /**
-   * Octants, 0 or more: how deep in one view's background a corner lies that this view alone rejects; larger
-   * finds fewer blobs.
+   * Octants, 0 or more: how deep in one view's background a corner lies that this view alone rejects; at least 85 over the
+   * square of the number of views is asked for. Larger finds fewer blobs.
    */
   double blobDepth = 0.1;
   /**
