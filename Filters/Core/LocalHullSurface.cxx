@@ -133,27 +133,43 @@ struct Survivors
   }
 };
 
-/** Fill narrow tunnels; returns the corners that were labelled inside, ascending. */
-std::vector<std::uint64_t> fillTunnels(
-  LatticeLabels& labels, CoveringResult& covering, const TunnelFillingOptions& options, Execution& execution)
+/** Label lattice points inside, in a shell that holds the cells around them. */
+void labelInside(LatticeLabels& labels, const std::vector<std::uint64_t>& points, Execution& execution)
 {
-  const auto walls = tunnelWalls(labels, options, execution);
-  if (!walls.empty())
+  if (points.empty())
   {
-    std::vector<std::uint64_t> covered;
-    for (const std::uint32_t cell : covering.coveredCells)
-    {
-      covered.push_back(labels.shell().cells[cell]);
-    }
-    labels.widen(extendedShell(labels.shell(), walls, execution));
-    for (const std::uint64_t point : walls)
-    {
-      labels.setInside(std::size_t(labels.shell().find(point)));
-    }
-    std::transform(covered.begin(), covered.end(), covering.coveredCells.begin(),
-      [&](std::uint64_t cell) { return std::uint32_t(labels.shell().findCell(fromMorton(cell))); });
+    return;
   }
-  return walls;
+  labels.widen(extendedShell(labels.shell(), points, execution));
+  for (const std::uint64_t point : points)
+  {
+    labels.setInside(std::size_t(labels.shell().find(point)));
+  }
+}
+
+/**
+ * Join handles that noise has cut, and fill narrow tunnels; returns the corners that were labelled inside.
+ */
+std::vector<std::uint64_t> mendTopology(LatticeLabels& labels, CoveringResult& covering, const LocalHullOptions& options,
+  LocalHullSurface& surface, Execution& execution)
+{
+  std::vector<std::uint64_t> covered;
+  for (const std::uint32_t cell : covering.coveredCells)
+  {
+    covered.push_back(labels.shell().cells[cell]);
+  }
+  Phase joining(execution, 0.0, 0.5);
+  std::vector<std::uint64_t> points = handleJoints(labels, surface.deficit, options.handles, joining);
+  surface.handleCorners = points.size();
+  labelInside(labels, points, execution);
+  Phase filling(execution, 0.5, 1.0);
+  const auto walls = tunnelWalls(labels, options.tunnels, filling);
+  surface.tunnelCorners = walls.size();
+  labelInside(labels, walls, execution);
+  std::transform(covered.begin(), covered.end(), covering.coveredCells.begin(),
+    [&](std::uint64_t cell) { return std::uint32_t(labels.shell().findCell(fromMorton(cell))); });
+  points.insert(points.end(), walls.begin(), walls.end());
+  return points;
 }
 
 /** What of the covering is thin: no corner within an octant of it was inside before. */
@@ -268,15 +284,14 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
 {
   surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
   execution.checkpoint(0.1);
-  CoveringResult covering = coverSurvivors(labels, survivors.bridges);
+  CoveringResult covering = coverSurvivors(labels, survivors.bridges, loopSteps(labels.octree().lattice, options.handles));
   surface.coveredOctants = covering.coveredCells.size();
   surface.coveringCorners = covering.coveringCorners.size();
   execution.checkpoint(0.3);
   auto added = codesOf(labels.shell(), covering.coveringCorners);
-  Phase filling(execution, 0.3, 0.4);
-  const auto walls = fillTunnels(labels, covering, options.tunnels, filling);
-  surface.tunnelCorners = walls.size();
-  added.insert(added.end(), walls.begin(), walls.end());
+  Phase mending(execution, 0.3, 0.4);
+  const auto mended = mendTopology(labels, covering, options, surface, mending);
+  added.insert(added.end(), mended.begin(), mended.end());
   std::sort(added.begin(), added.end());
   surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
   execution.checkpoint(0.4);
@@ -386,6 +401,7 @@ LocalHullSurface coveredSurface(const Mesh& imperfect, const Octree& octree, con
   plain.mode = LocalHullMode::Robust;
   plain.islandShare = 0.0;
   plain.thinHulls = false;
+  plain.tunnels.fillTunnels = false;
   return localHullSurface(imperfect, octree, views, plain, execution);
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "FieldCorrection.h"
+#include "HandleJoining.h"
 #include "HullChains.h"
 #include "LocalHulls.h"
 #include "Mesh.h"
@@ -45,6 +46,7 @@ struct LocalHullOptions
   FieldCorrectionOptions correction; ///< Robust, with views
   ThinHullOptions thin;
   TunnelFillingOptions tunnels; ///< Robust
+  HandleJoiningOptions handles; ///< Robust, with views
   SliceOptions slices; ///< Thesis
   ChainOptions chains; ///< Thesis
   LocalHullsOptions hulls;
@@ -59,6 +61,7 @@ struct LocalHullSurface
   std::uint64_t coveringCorners = 0; ///< corners labelled inside to cover or to join
   std::uint64_t bridges = 0;         ///< joints between components of the survivors
   std::uint64_t cavitiesFilled = 0;  ///< cavities that were labelled inside
+  std::uint64_t handleCorners = 0;   ///< corners that were labelled inside to join handles that noise had cut
   std::uint64_t tunnelCorners = 0;   ///< corners that were labelled inside to fill narrow tunnels
   std::uint64_t ignoredPoints = 0;   ///< points of the imperfect surface that lie on no lattice edge
   std::uint64_t thinHulls = 0;       ///< hulls that thin parts were rounded into

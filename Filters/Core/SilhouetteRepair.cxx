@@ -15,6 +15,7 @@ namespace
 
 constexpr int MostRounds = 4;          ///< where blobs cross, filling one may bare another
 constexpr double FewViewsChord = 3.0;  ///< over the number of views: extents that any view may cut
+constexpr double FewViewsDepth = 85.0; ///< over their square: slivers between neighbouring views are that deep
 constexpr double WrongViewChord = 0.7; ///< of the chord asked for, in a view that has a blob
 
 /** A corner that one view alone calls background. */
@@ -231,12 +232,13 @@ std::vector<std::vector<std::uint64_t>> findBlobs(const LatticeViews& views, con
 {
   std::vector<Rejected> corners = findRejected(views, shell, execution);
   std::vector<std::uint8_t> deep(corners.size(), 0);
+  const double depth = std::max(options.blobDepth, FewViewsDepth / (double(views.size()) * views.size()));
   execution.forRanges(corners.size(), 1024,
                       [&](std::size_t first, std::size_t last)
                       {
                         for (std::size_t c = first; c < last; ++c)
                         {
-                          deep[c] = isDeep(views, corners[c], options.blobDepth) ? 1 : 0;
+                          deep[c] = isDeep(views, corners[c], depth) ? 1 : 0;
                         }
                       });
   const Rejected* start = corners.data();

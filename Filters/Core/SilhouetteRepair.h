@@ -30,10 +30,10 @@ struct SilhouetteRepairOptions
    */
   double speckleShare = 1e-4;
   /**
-   * Octants, 0 or more: how deep in one view's background a corner lies that this view alone rejects; larger
-   * finds fewer blobs.
+   * Octants, 0 or more: how deep in one view's background a corner lies that this view alone rejects; at least 85 over the
+   * square of the number of views is asked for. Larger finds fewer blobs.
    */
-  double blobDepth = 0.5;
+  double blobDepth = 0.1;
   /**
    * Share of the object's extent along the lattice, 0 to 1: the mean depth, along the view, of what it alone
    * cuts away; at least 3 over the number of views is asked for. Larger finds fewer blobs.

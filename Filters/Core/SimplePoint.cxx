@@ -2,6 +2,7 @@
 #include "SimplePoint.h"
 
 #include "Lattice.h"
+#include "MarchingCubesTable.h"
 
 #include <cstdlib>
 
@@ -115,6 +116,44 @@ TopologicalNumbers topologicalNumbers(const Neighbourhood& labels)
   std::array<std::int8_t, 27> unused;
   numbers.outside = components(outside, 1, unused);
   return numbers;
+}
+
+namespace
+{
+
+/** Points less segments plus loops of the surface in the eight cells around the centre; what does not touch it stays, whatever its label. */
+int doubleEuler(const Neighbourhood& labels)
+{
+  int points = 0, segments = 0, loops = 0;
+  for (const int n : { 4, 10, 12, 14, 16, 22 })
+  {
+    points += labels[n] != labels[Centre];
+  }
+  for (int cell = 0; cell < 8; ++cell)
+  {
+    unsigned which = 0;
+    for (int c = 0; c < 8; ++c)
+    {
+      const LatticePoint p = cornerOffset(cell) + cornerOffset(c);
+      which |= unsigned(labels[p.i + 3 * p.j + 9 * p.k]) << c;
+    }
+    for (const auto& loop : marchingCubesTable()[which].loops)
+    {
+      segments += int(loop.size());
+      ++loops;
+    }
+  }
+  return 2 * points - segments + 2 * loops; // two cells share a segment
+}
+
+} // namespace
+
+int eulerChange(const Neighbourhood& labels)
+{
+  Neighbourhood without = labels, with = labels;
+  without[Centre] = false;
+  with[Centre] = true;
+  return (doubleEuler(with) - doubleEuler(without)) / 4;
 }
 
 bool isSimple(const TopologicalNumbers& numbers)

@@ -2,6 +2,7 @@
 #include "SurvivorCovering.h"
 
 #include "LatticeRegions.h"
+#include "ShellPaths.h"
 #include "SimplePoint.h"
 
 #include <algorithm>
@@ -39,8 +40,9 @@ struct Candidate
 class Covering
 {
 public:
-  explicit Covering(LatticeLabels& labels)
+  Covering(LatticeLabels& labels, int loop)
     : Labels(labels)
+    , Loop(loop)
     , Solid(connectRegions(labels, true))
   {
   }
@@ -302,10 +304,41 @@ private:
     }
   }
 
+  /** An inside corner of the survivors around a lattice point, or 0xffffffff. */
+  std::uint32_t insideNear(std::uint64_t point) const
+  {
+    std::array<std::uint32_t, 8> cells;
+    const int count = this->Labels.cellsAround(fromMorton(point), cells);
+    for (int n = 0; n < count; ++n)
+    {
+      for (const std::uint32_t corner : this->shell().cellCorners[cells[n]])
+      {
+        if (this->inside(corner))
+        {
+          return corner;
+        }
+      }
+    }
+    return 0xffffffffu;
+  }
+
+  /** Corrected labels may have joined already what the survivors leave apart: a bridge would make a tunnel there. */
+  bool isNeeded(const Bridge& bridge, ShellPaths& paths)
+  {
+    const std::uint32_t from = this->insideNear(bridge.front()), to = this->insideNear(bridge.back());
+    return from == 0xffffffffu || to == 0xffffffffu || this->component(from) != this->component(to) ||
+      !paths.meet(from, to, this->Loop);
+  }
+
   void build(const std::vector<Bridge>& bridges)
   {
+    ShellPaths paths(this->shell(), this->Labels.inside());
     for (const auto& bridge : bridges)
     {
+      if (!this->isNeeded(bridge, paths))
+      {
+        continue;
+      }
       for (const std::uint64_t point : bridge)
       {
         const auto corner = this->shell().find(point);
@@ -319,6 +352,7 @@ private:
   }
 
   LatticeLabels& Labels;
+  int Loop;
   LatticeRegions Solid;
   std::vector<std::uint32_t> Lost;
   std::deque<std::uint32_t> Unsettled;
@@ -327,9 +361,9 @@ private:
 
 } // namespace
 
-CoveringResult coverSurvivors(LatticeLabels& labels, const std::vector<Bridge>& bridges)
+CoveringResult coverSurvivors(LatticeLabels& labels, const std::vector<Bridge>& bridges, int loop)
 {
-  return Covering(labels).run(bridges);
+  return Covering(labels, loop).run(bridges);
 }
 
 } // namespace silhouette

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <queue>
 #include <tuple>
 
@@ -342,6 +343,25 @@ private:
   std::priority_queue<std::tuple<float, std::ptrdiff_t, std::size_t>> Front;
 };
 
+/** By how much the solid's Euler number rises where a wall is added to it: by 1 for each tunnel that it closes. */
+int eulerRise(const std::vector<std::size_t>& wall, const Parts& parts)
+{
+  std::vector<std::uint64_t> added;
+  int rise = 0;
+  for (const std::size_t n : wall)
+  {
+    Neighbourhood around;
+    for (int a = 0; a < 27; ++a)
+    {
+      const LatticePoint p = neighbourOf(fromMorton(parts.code(n)), a);
+      around[a] = parts.at(p) == Solid || std::binary_search(added.begin(), added.end(), mortonCode(p));
+    }
+    rise += eulerChange(around);
+    added.insert(std::lower_bound(added.begin(), added.end(), parts.code(n)), parts.code(n));
+  }
+  return rise;
+}
+
 /** Octants along the outline of a wall: that of a rectangle with the two longest sides of its box, and the solid around it. */
 double outline(const std::vector<std::size_t>& wall, const Parts& parts)
 {
@@ -383,9 +403,11 @@ std::vector<std::uint64_t> tunnelWalls(const LatticeLabels& labels, const Tunnel
         growth.open(wall);
         settled = false;
       }
-      for (const std::size_t n : wall)
+      // In a thicket of debris what is left may be no wall.
+      if (eulerRise(wall, parts) > 0)
       {
-        points.push_back(parts.code(n));
+        std::transform(
+          wall.begin(), wall.end(), std::back_inserter(points), [&](std::size_t n) { return parts.code(n); });
       }
     }
   }

@@ -60,6 +60,8 @@ void storeSurface(const silhouette::LocalHullSurface& found, const MeshOutput& o
   setField(surface, "IgnoredPoints", found.ignoredPoints);
   setField(surface, "MovedToMiddle", found.movedToMiddle);
   setField(surface, "DroppedOctants", found.droppedOctants);
+  setField(surface, "HandleCorners", found.handleCorners);
+  setField(surface, "TunnelCorners", found.tunnelCorners);
   setField(surface, "Deficit", found.deficit);
   setField(surface, "Alignment", found.alignment);
   setField(surface, "RepairedPixels", found.repairedPixels);
@@ -121,6 +123,12 @@ public:
     pair(self.AlignViews, options.correction.alignViews);
     pair(self.CorrectField, options.correction.moveSurface);
     pair(self.ThinHulls, options.thinHulls);
+    pair(self.JoinHandles, options.handles.joinHandles);
+    pair(self.HandleReach, options.handles.reach);
+    pair(self.FillTunnels, options.tunnels.fillTunnels);
+    pair(self.TunnelWidth, options.tunnels.width);
+    pair(self.LoopLength, options.handles.loop);
+    pair(self.LoopLength, options.tunnels.loop);
     pair(self.SpeckleArea, options.repair.speckleArea);
     pair(self.SpeckleShare, options.repair.speckleShare);
     pair(self.BlobDepth, options.repair.blobDepth);
@@ -255,6 +263,11 @@ void vtkLocalHullSurfacer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AlignViews: " << (this->AlignViews ? "On" : "Off") << "\n";
   os << indent << "CorrectField: " << (this->CorrectField ? "On" : "Off") << "\n";
   os << indent << "ThinHulls: " << (this->ThinHulls ? "On" : "Off") << "\n";
+  os << indent << "JoinHandles: " << (this->JoinHandles ? "On" : "Off") << "\n";
+  os << indent << "HandleReach: " << this->HandleReach << "\n";
+  os << indent << "FillTunnels: " << (this->FillTunnels ? "On" : "Off") << "\n";
+  os << indent << "TunnelWidth: " << this->TunnelWidth << "\n";
+  os << indent << "LoopLength: " << this->LoopLength << "\n";
   os << indent << "SpeckleArea: " << this->SpeckleArea << "\n";
   os << indent << "SpeckleShare: " << this->SpeckleShare << "\n";
   os << indent << "BlobDepth: " << this->BlobDepth << "\n";

@@ -19,6 +19,7 @@
  * | | | field `Bridges` | 64-bit unsigned, 1 | joints between components of the survivors |
  * | | | field `CavitiesFilled` | 64-bit unsigned, 1 | cavities labelled inside |
  * | | | field `IgnoredPoints` | 64-bit unsigned, 1 | input points that lie on no lattice edge |
+ * | | | fields `HandleCorners`, `TunnelCorners` | 64-bit unsigned, 1 | lattice points labelled inside to join handles that noise had cut; to fill narrow tunnels |
  * | | | field `DroppedOctants` | 64-bit unsigned, 1 | survivors given up as islands, in octants of the last generation's size |
  * | | | field `Deficit` | double, 1 | the silhouettes' mean deficit before any correction, in leaf octants; 0 without views |
  * | | | field `Alignment` | double, 1 | mean length of the views' shifts, in pixels; 0 where they were not shifted |
@@ -170,6 +171,54 @@ public:
 
   ///@{
   /**
+   * Whether to join handles that noise has cut: ends that the corrected field nearly joins, or whose surviving
+   * octants touch, and that are far from each other through the solid. Default on. Only in Robust mode, with views, where
+   * the surface is corrected.
+   */
+  vtkSetMacro(JoinHandles, bool);
+  vtkGetMacro(JoinHandles, bool);
+  vtkBooleanMacro(JoinHandles, bool);
+  ///@}
+
+  ///@{
+  /**
+   * JoinHandles: how far outside by the corrected field a joint may lie; octants for each octant of the silhouettes'
+   * deficit, at least 0, default 1. Larger joins more.
+   */
+  vtkSetMacro(HandleReach, double);
+  vtkGetMacro(HandleReach, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to fill narrow tunnels through the solid, which noise and the grid leave. Default on. Only in Robust mode.
+   */
+  vtkSetMacro(FillTunnels, bool);
+  vtkGetMacro(FillTunnels, bool);
+  vtkBooleanMacro(FillTunnels, bool);
+  ///@}
+
+  ///@{
+  /**
+   * FillTunnels: a passage is narrow where no cube of this edge fits into it; leaf octants, 1 to 8, default 3. Larger
+   * fills wider ones.
+   */
+  vtkSetMacro(TunnelWidth, int);
+  vtkGetMacro(TunnelWidth, int);
+  ///@}
+
+  ///@{
+  /**
+   * JoinHandles, FillTunnels and bridges: the length that tells the object's own loops from those of noise; share of the
+   * octants along the root cube's side, at least 0, default 1/3. A narrow tunnel with a longer loop of solid around it stays, ends with a
+   * longer way between them through the solid are joined. Larger fills more tunnels and joins fewer handles.
+   */
+  vtkSetMacro(LoopLength, double);
+  vtkGetMacro(LoopLength, double);
+  ///@}
+
+  ///@{
+  /**
    * RepairSilhouettes: the largest area of a speckle, background that the object encloses or object that
    * background encloses; squared leaf octants, at least 0, default 0.5. Larger takes larger ones.
    */
@@ -189,7 +238,7 @@ public:
   ///@{
   /**
    * RepairSilhouettes: how deep in one view's background a corner lies that this view alone rejects; leaf
-   * octants, at least 0, default 1. Larger finds fewer blobs.
+   * octants, at least 0, default 0.1. Larger finds fewer blobs.
    */
   vtkSetMacro(BlobDepth, double);
   vtkGetMacro(BlobDepth, double);
@@ -198,7 +247,7 @@ public:
   ///@{
   /**
    * RepairSilhouettes: the mean depth, along the view, of what it alone cuts away; share of the object's
-   * extent, 0 to 1, default 0.09. Larger finds fewer blobs.
+   * extent, 0 to 1, default 0.125. Larger finds fewer blobs.
    */
   vtkSetMacro(BlobChord, double);
   vtkGetMacro(BlobChord, double);
@@ -400,6 +449,11 @@ protected:
   bool AlignViews;
   bool CorrectField;
   bool ThinHulls;
+  bool JoinHandles;
+  double HandleReach;
+  bool FillTunnels;
+  int TunnelWidth;
+  double LoopLength;
   double SpeckleArea;
   double SpeckleShare;
   double BlobDepth;

@@ -70,7 +70,8 @@ class LocalHulls(ProgramTest):
     def test_modes_and_switches(self):
         robust = self.reconstruct()
         thesis = self.reconstruct("--mode", "thesis")
-        plain = self.reconstruct("--no-repair", "--no-alignment", "--no-correction", "--no-thin-hulls")
+        plain = self.reconstruct("--no-repair", "--no-alignment", "--no-correction", "--no-thin-hulls",
+                                 "--no-handles", "--no-tunnels")
         self.assertEqual((robust["mode"], thesis["mode"], plain["mode"]), ("robust", "thesis", "robust"))
         for found in (robust, thesis, plain):
             self.assert_sound(found)

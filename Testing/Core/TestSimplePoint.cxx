@@ -58,6 +58,9 @@ TEST(SimplePoint, SimpleCornersChangeNoTopologyOfTheSurface)
     }
     labels[13] = false;
     const bool same = topology(labels, false) == topology(labels, true);
+    const auto [pieces, genus] = topology(labels, false);
+    const auto [piecesThen, genusThen] = topology(labels, true);
+    EXPECT_EQ(eulerChange(labels), int(piecesThen) - int(genusThen) - int(pieces) + int(genus)) << "trial " << trial;
     if (isSimple(topologicalNumbers(labels)))
     {
       ++simple;

@@ -24,7 +24,7 @@ TEST(SurvivorCovering, GivesEverySurvivorAnInsideCornerAndEveryComponentOneSolid
     const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
     LatticeLabels labels(octree, shell, views, execution);
     const auto before = labels.inside();
-    const CoveringResult result = coverSurvivors(labels, {});
+    const CoveringResult result = coverSurvivors(labels, {}, 0);
     EXPECT_GT(result.coveredCells.size(), 0u);
     std::set<std::uint32_t> added(result.coveringCorners.begin(), result.coveringCorners.end());
     EXPECT_EQ(added.size(), result.coveringCorners.size());

@@ -39,7 +39,7 @@ struct Covered
         this->cells.push_back(c);
       }
     }
-    for (const std::uint32_t corner : coverSurvivors(this->labels, {}).coveringCorners)
+    for (const std::uint32_t corner : coverSurvivors(this->labels, {}, 0).coveringCorners)
     {
       this->added.push_back(this->labels.shell().corners[corner]);
     }

@@ -119,7 +119,7 @@ TEST(VtkLocalHullSurfacer, IsAProperFilter)
   expectPrints(filter,
                {"FillCavities", "CoverOffset", "BridgeGap", "HullTolerance", "SeedBlock", "GenerateNormals",
                 "OutputPointsPrecision", "Mode", "IslandShare", "RepairSilhouettes", "AlignViews", "CorrectField",
-                "ThinHulls", "SpeckleArea", "SpeckleShare", "BlobDepth", "BlobChord", "BlobCorners",
+                "ThinHulls", "JoinHandles", "HandleReach", "FillTunnels", "TunnelWidth", "LoopLength", "SpeckleArea", "SpeckleShare", "BlobDepth", "BlobChord", "BlobCorners",
                 "SmallestDeficit", "Smoothing", "GreatestSmoothing", "Gentleness", "Alignments", "ContourReach",
                 "ThinSmallestRadius", "ThinLargestRadius", "ThinReach", "SliceAxis", "SliceTolerance",
                 "ChainTolerance", "ChainOverlap"});
@@ -128,6 +128,9 @@ TEST(VtkLocalHullSurfacer, IsAProperFilter)
   expectModifies(filter, [&] { filter->SetIslandShare(0.5); });
   expectModifies(filter, [&] { filter->AlignViewsOff(); });
   expectModifies(filter, [&] { filter->SetBlobCorners(9); });
+  expectModifies(filter, [&] { filter->JoinHandlesOff(); });
+  expectModifies(filter, [&] { filter->FillTunnelsOff(); });
+  expectModifies(filter, [&] { filter->SetTunnelWidth(4); });
   expectModifies(filter, [&] { filter->SetCoverOffset(0.2); });
   expectModifies(filter, [&] { filter->FillCavitiesOff(); });
   expectModifies(filter, [&] { filter->SetSeedBlock(2); });

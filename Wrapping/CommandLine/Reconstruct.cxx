@@ -137,6 +137,8 @@ void Reconstruct::addLocalHulls()
   addSwitch("--no-correction", this->Options.correction, "Leave the surface where the strictest views say it is, not "
                                                          "where they agree on average");
   addSwitch("--no-thin-hulls", this->Options.thinHulls, "Leave parts thinner than an octant angular");
+  addSwitch("--no-handles", this->Options.handles, "Leave handles apart that noise has cut");
+  addSwitch("--no-tunnels", this->Options.tunnels, "Leave narrow tunnels open, which noise and the grid make");
 }
 
 void Reconstruct::addSurface()

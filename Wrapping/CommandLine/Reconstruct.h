@@ -37,6 +37,8 @@ struct ReconstructOptions
   bool alignment = true;
   bool correction = true;
   bool thinHulls = true;
+  bool handles = true;
+  bool tunnels = true;
   bool largest = false;
   std::string truth;
   std::string metrics;

@@ -172,6 +172,8 @@ void Reconstruction::setLocalHulls()
   this->Hulls->SetAlignViews(options.alignment);
   this->Hulls->SetCorrectField(options.correction);
   this->Hulls->SetThinHulls(options.thinHulls);
+  this->Hulls->SetJoinHandles(options.handles);
+  this->Hulls->SetFillTunnels(options.tunnels);
   if (options.surface == "local-hull")
   {
     this->Evaluator->SetIslandShare(options.islandShare); // what is given up is dropped, not lost

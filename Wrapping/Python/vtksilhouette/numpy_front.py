@@ -77,7 +77,8 @@ class Octree:
 
 def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", vote_share=None,
                 outside="border", edges="exact", names=None, carving="tolerant", mode="robust",
-                drop_islands=0.0, repair=True, alignment=True, correction=True, thin_hulls=True):
+                drop_islands=0.0, repair=True, alignment=True, correction=True, thin_hulls=True,
+                handles=True, tunnels=True):
     """Reconstructs the mesh of an object from silhouettes.
 
     masks        sequence of m 2-D arrays, row 0 at the top; they may differ in size. Object is True, or
@@ -107,6 +108,8 @@ def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", 
     alignment    shift views against an error of their cameras, where one is measured
     correction   move the surface to where the views agree on average
     thin_hulls   round parts thinner than an octant
+    handles      join handles that noise has cut
+    tunnels      fill narrow tunnels that noise and the grid leave
 
     Returns (points, triangles): (n, 3) float64 and (k, 3) int64 indices into points, counter-clockwise seen
     from outside.
@@ -148,6 +151,8 @@ def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", 
         hulls.SetAlignViews(bool(alignment))
         hulls.SetCorrectField(bool(correction))
         hulls.SetThinHulls(bool(thin_hulls))
+        hulls.SetJoinHandles(bool(handles))
+        hulls.SetFillTunnels(bool(tunnels))
         hulls.SetInputConnection(0, cubes.GetOutputPort(0))
         hulls.SetInputConnection(1, source.GetOutputPort(0))
         hulls.SetInputConnection(2, source.GetOutputPort(1))
