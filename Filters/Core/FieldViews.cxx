@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldViews.h"
 
-#include "SilhouetteRendering.h"
+#include "OutlineRendering.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,13 +110,14 @@ FieldViews::Place FieldViews::place(int view, const LatticePoint& p) const
 std::vector<BinaryImage> FieldViews::render(const Mesh& mesh, const std::vector<int>& views, Execution& execution) const
 {
   std::vector<BinaryImage> images(views.size());
+  const OutlineRenderer renderer(mesh);
   execution.forRanges(views.size(), 1,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t i = first; i < last; ++i)
       {
         const PreparedView& view = (*this->Views)[views[i]];
-        images[i] = renderSilhouette(mesh, this->Projections[views[i]], view.width, view.height, RenderedSides::One);
+        images[i] = renderer.render(this->Projections[views[i]], view.width, view.height);
       }
     });
   return images;
