@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DistanceMap.h"
 
+#include "Vectorised.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +13,8 @@ namespace
 {
 
 constexpr int TileSize = 16;
+constexpr int BlockSize = 8;
+constexpr int LongestFloat = 2000; ///< px: distances up to here have squares that float sums exactly
 
 /** Least and greatest column and row of the object; the greatest are below the least where there is none. */
 std::array<int, 4> objectBox(const std::uint8_t* object, int width, int height)
@@ -32,6 +36,45 @@ std::array<int, 4> objectBox(const std::uint8_t* object, int width, int height)
     box = { std::min(box[0], int(from - first)), std::max(box[1], int(last - first) - 1), std::min(box[2], row), row };
   }
   return box;
+}
+
+/**
+ * The least d * d + column[d]^2 over |d| <= `most`, for a row's TileSize pixels of one kind: `column` has the distances within the columns,
+ * 0 at pixels of the other kind. Stops where no larger d can matter.
+ */
+SILHOUETTE_VECTORISED void leastSquares(const float* column, int most, float* best)
+{
+  for (int c = 0; c < TileSize; ++c)
+  {
+    best[c] = column[c] * column[c];
+  }
+  for (int d = 1; d <= most; ++d)
+  {
+    const float square = float(d) * float(d);
+    float greatest = 0.0f;
+    for (int c = 0; c < TileSize; ++c)
+    {
+      const float before = column[c - d] * column[c - d] + square, after = column[c + d] * column[c + d] + square;
+      const float nearer = before < after ? before : after;
+      best[c] = best[c] < nearer ? best[c] : nearer;
+      greatest = greatest < best[c] ? best[c] : greatest;
+    }
+    if (!(float(d + 1) * float(d + 1) < greatest))
+    {
+      return;
+    }
+  }
+}
+
+/** Each pixel's distance in its column to the other kind, at most one more a row. */
+SILHOUETTE_VECTORISED void stepColumns(
+  const std::uint8_t* own, const std::uint8_t* other, const std::int16_t* last, std::int16_t* out, int columns)
+{
+  for (int c = 0; c < columns; ++c)
+  {
+    const std::int16_t next = std::int16_t(own[c] != other[c] ? 1 : last[c] + 1);
+    out[c] = next < out[c] ? next : out[c];
+  }
 }
 
 class Transform
@@ -82,7 +125,7 @@ private:
   void sweepColumns()
   {
     const int columns = this->Map.columns;
-    this->InColumn.assign(std::size_t(columns) * this->Map.rows, std::uint16_t(this->Limit));
+    this->InColumn.assign(std::size_t(columns) * this->Map.rows, std::int16_t(this->Limit));
     for (int pass = 0; pass < 2; ++pass)
     {
       for (int n = 1; n < this->Map.rows; ++n)
@@ -90,13 +133,7 @@ private:
         const int r = pass == 0 ? n : this->Map.rows - 1 - n;
         const int before = pass == 0 ? r - 1 : r + 1;
         const std::uint8_t *own = this->row(r), *other = this->row(before);
-        std::uint16_t* out = &this->InColumn[std::size_t(r) * columns];
-        const std::uint16_t* last = &this->InColumn[std::size_t(before) * columns];
-        for (int c = 0; c < columns; ++c)
-        {
-          const int distance = own[c] != other[c] ? 1 : last[c] + 1;
-          out[c] = std::uint16_t(std::min<int>(out[c], distance));
-        }
+        stepColumns(own, other, &this->InColumn[std::size_t(before) * columns], &this->InColumn[std::size_t(r) * columns], columns);
       }
     }
   }
@@ -122,7 +159,7 @@ private:
   float distanceAt(int column, int row) const
   {
     const std::uint8_t* pixels = this->row(row);
-    const std::uint16_t* vertical = &this->InColumn[std::size_t(row) * this->Map.columns];
+    const std::int16_t* vertical = &this->InColumn[std::size_t(row) * this->Map.columns];
     const int kind = pixels[column];
     long best = long(vertical[column]) * vertical[column];
     for (int d = 1; d < this->Limit && long(d) * d < best; ++d)
@@ -140,6 +177,38 @@ private:
     return kind != 0 ? distance : -distance;
   }
 
+  /** distanceAt() for TileSize pixels of a row, once for each kind that is among them. */
+  void fillRow(int row, int firstColumn, float* out)
+  {
+    const std::uint8_t* pixels = this->row(row);
+    const std::int16_t* vertical = &this->InColumn[std::size_t(row) * this->Map.columns];
+    const int most = this->Limit - 1;
+    const int from = std::max(firstColumn - most, 0), to = std::min(firstColumn + TileSize + most, this->Map.columns);
+    this->Around.assign(std::size_t(TileSize + 2 * most), float(this->Limit));
+    float* around = this->Around.data() + most - firstColumn;
+    for (const std::uint8_t kind : { 0, 1 })
+    {
+      if (std::find(pixels + firstColumn, pixels + firstColumn + TileSize, kind) == pixels + firstColumn + TileSize)
+      {
+        continue;
+      }
+      for (int c = from; c < to; ++c)
+      {
+        around[c] = pixels[c] == kind ? float(vertical[c]) : 0.0f;
+      }
+      float best[TileSize];
+      leastSquares(around + firstColumn, most, best);
+      for (int c = 0; c < TileSize; ++c)
+      {
+        const float distance = std::min(std::sqrt(best[c]) - 0.5f, this->Map.reach);
+        if (pixels[firstColumn + c] == kind)
+        {
+          out[c] = kind != 0 ? distance : -distance;
+        }
+      }
+    }
+  }
+
   void fill(int tileColumn, int tileRow)
   {
     const int lastRow = std::min((tileRow + 1) * TileSize, this->Map.rows);
@@ -147,9 +216,15 @@ private:
     const int lastColumn = std::min(firstColumn + TileSize, this->Map.columns);
     const bool far = this->alone(tileColumn, tileRow);
     const float value = this->row(tileRow * TileSize)[firstColumn] != 0 ? this->Map.reach : -this->Map.reach;
+    const bool vectorised = !far && this->Limit <= LongestFloat && firstColumn + TileSize <= this->Map.columns;
     for (int r = tileRow * TileSize; r < lastRow; ++r)
     {
       float* out = &this->Map.value[std::size_t(r) * this->Map.columns];
+      if (vectorised)
+      {
+        this->fillRow(r, firstColumn, out + firstColumn);
+        continue;
+      }
       for (int c = firstColumn; c < lastColumn; ++c)
       {
         out[c] = far ? value : this->distanceAt(c, r);
@@ -163,30 +238,48 @@ private:
   int TileColumns;
   int TileRows;
   std::vector<std::uint8_t> Tiles;
-  std::vector<std::uint16_t> InColumn;
+  std::vector<std::int16_t> InColumn;
+  std::vector<float> Around;
 };
+
+/** How many blocks are not wholly at the reach, summed over both directions. */
+void countBlocks(DistanceMap& map)
+{
+  const int across = (map.columns + BlockSize - 1) / BlockSize, down = (map.rows + BlockSize - 1) / BlockSize;
+  const std::size_t stride = std::size_t(across) + 1;
+  map.blocksNear.assign(stride * (std::size_t(down) + 1), 0);
+  for (int r = 0; r < map.rows; ++r)
+  {
+    const float* values = &map.value[std::size_t(r) * map.columns];
+    std::int32_t* near = &map.blocksNear[(std::size_t(r / BlockSize) + 1) * stride + 1];
+    for (int block = 0; block < across; ++block)
+    {
+      const float* first = values + block * BlockSize;
+      near[block] |= *std::min_element(first, std::min(first + BlockSize, values + map.columns)) < map.reach;
+    }
+  }
+  for (std::size_t n = stride + 1; n < map.blocksNear.size(); ++n)
+  {
+    if (n % stride != 0)
+    {
+      map.blocksNear[n] += map.blocksNear[n - 1] + map.blocksNear[n - stride] - map.blocksNear[n - stride - 1];
+    }
+  }
+}
 
 } // namespace
 
-float DistanceMap::at(double u, double v) const
+bool DistanceMap::farInside(double firstU, double lastU, double firstV, double lastV) const
 {
-  if (this->value.empty())
+  const double u = firstU - this->left, lastInU = lastU - this->left, v = firstV - this->top, lastInV = lastV - this->top;
+  if (this->value.empty() || !(u >= 0.0 && v >= 0.0 && lastInU < this->columns - 1 && lastInV < this->rows - 1))
   {
-    return -this->reach;
+    return false;
   }
-  // Beyond the part that is kept there is only background.
-  const double x = std::clamp(u - this->left, 0.0, double(this->columns - 1));
-  const double y = std::clamp(v - this->top, 0.0, double(this->rows - 1));
-  const int c = std::min(int(x), std::max(this->columns - 2, 0));
-  const int r = std::min(int(y), std::max(this->rows - 2, 0));
-  const int right = this->columns > 1 ? 1 : 0;
-  const std::size_t below = this->rows > 1 ? std::size_t(this->columns) : 0;
-  const float s = float(x - c), t = float(y - r);
-  const float* p = &this->value[std::size_t(r) * this->columns + c];
-  const float inner =
-    (p[0] * (1 - s) + p[right] * s) * (1 - t) + (p[below] * (1 - s) + p[below + right] * s) * t;
-  const double dx = u - this->left - x, dy = v - this->top - y;
-  return dx == 0.0 && dy == 0.0 ? inner : std::max(-this->reach, inner - float(std::sqrt(dx * dx + dy * dy)));
+  const int stride = (this->columns + BlockSize - 1) / BlockSize + 1;
+  const int a = int(u) / BlockSize, b = (int(lastInU) + 1) / BlockSize + 1;
+  const int c = int(v) / BlockSize * stride, d = ((int(lastInV) + 1) / BlockSize + 1) * stride;
+  return this->blocksNear[d + b] - this->blocksNear[c + b] - this->blocksNear[d + a] + this->blocksNear[c + a] == 0;
 }
 
 DistanceMap distanceMap(const std::uint8_t* object, int width, int height, double reach)
@@ -207,6 +300,7 @@ DistanceMap distanceMap(const std::uint8_t* object, int width, int height, doubl
   map.rows = std::min(box[3] + margin, height - 1) - map.top + 1;
   map.value.resize(std::size_t(map.columns) * map.rows);
   Transform(object, map).run();
+  countBlocks(map);
   return map;
 }
 

@@ -14,6 +14,8 @@ namespace silhouette
 namespace
 {
 
+constexpr int BlockSize = 4;             ///< points a side of a block, in which views are asked or not
+constexpr std::size_t BlockPoints = 64;  ///< consecutive in Morton order
 constexpr double ThoughtOutAt = 128.0; ///< cells a side of the lattice that the largest lengths are stated for
 
 void check(const FieldCorrectionOptions& options)
@@ -125,24 +127,45 @@ private:
   {
     this->Second.assign(this->Least.size(), 0.0f);
     const float far = -float(this->Views.reach());
-    execution.forRanges(this->Least.size(), 512,
+    execution.forRanges(this->Least.size() / BlockPoints, 8,
       [&](std::size_t first, std::size_t last)
       {
-        for (std::size_t n = first; n < last; ++n)
+        std::vector<int> near;
+        for (std::size_t block = first; block < last; ++block)
         {
-          const LatticePoint p = fromMorton(this->Least.code(n));
-          float least = -far, second = -far;
-          for (int view = 0; view < this->Views.size() && !(least <= far && second <= far); ++view)
+          this->findNear(fromMorton(this->Least.code(block * BlockPoints)), nullptr, near);
+          for (std::size_t n = block * BlockPoints; n < (block + 1) * BlockPoints; ++n)
           {
-            const float distance = this->Views.inside(this->Views.observed(view), this->Views.place(view, p));
-            second = std::min(second, std::max(least, distance));
-            least = std::min(least, distance);
+            const LatticePoint p = fromMorton(this->Least.code(n));
+            float least = -far, second = -far;
+            for (std::size_t i = 0; i < near.size() && !(least <= far && second <= far); ++i)
+            {
+              const int view = near[i];
+              const float distance = this->Views.inside(this->Views.observed(view), this->Views.place(view, p));
+              second = std::min(second, std::max(least, distance));
+              least = std::min(least, distance);
+            }
+            const bool border = this->Views.lattice().onBorder(p);
+            this->Least.values()[n] = border ? far : least;
+            this->Second[n] = border ? far : second;
           }
-          const bool border = this->Views.lattice().onBorder(p);
-          this->Least.values()[n] = border ? far : least;
-          this->Second[n] = border ? far : second;
         }
       });
+  }
+
+  /** The views that say anything but the whole reach in a block of points: all that have to be asked there. */
+  void findNear(const LatticePoint& block, const std::vector<DistanceMap>* maps, std::vector<int>& near) const
+  {
+    near.clear();
+    for (const int view : this->All)
+    {
+      const FieldViews::Region region = this->Views.region(view, block, BlockSize);
+      if (!this->Views.wholeReach(this->Views.observed(view), region) ||
+        (maps && !this->Views.wholeReach((*maps)[view], region)))
+      {
+        near.push_back(view);
+      }
+    }
   }
 
   /** From the least distance to the model, and from the model to where the views agree. */
@@ -159,19 +182,28 @@ private:
     const auto maps = this->Views.distances(this->Views.render(model.contourMesh(execution), this->All, execution), execution);
     execution.checkpoint(0.85);
     const float reach = float(this->Options.contourReach * this->Scale);
-    execution.forRanges(model.size(), 256,
+    execution.forRanges(model.size() / BlockPoints, 8,
       [&](std::size_t first, std::size_t last)
       {
         std::vector<float> own(maps.size()), seen(maps.size());
-        for (std::size_t n = first; n < last; ++n)
+        std::vector<int> near;
+        for (std::size_t block = first; block < last; ++block)
         {
-          if (std::abs(model.values()[n]) < 3.0f * float(this->Scale))
-          {
-            this->Least.values()[n] = this->agreement(fromMorton(model.code(n)), maps, reach, own, seen);
-          }
-          else
+          bool known = false;
+          for (std::size_t n = block * BlockPoints; n < (block + 1) * BlockPoints; ++n)
           {
             this->Least.values()[n] = model.values()[n];
+            if (std::abs(model.values()[n]) < 3.0f * float(this->Scale))
+            {
+              if (!known)
+              {
+                known = true;
+                this->findNear(fromMorton(model.code(block * BlockPoints)), &maps, near);
+                std::fill(own.begin(), own.end(), float(this->Views.reach()));
+                std::fill(seen.begin(), seen.end(), float(this->Views.reach()));
+              }
+              this->Least.values()[n] = this->agreement(fromMorton(model.code(n)), maps, near, reach, own, seen);
+            }
           }
         }
       });
@@ -189,8 +221,9 @@ private:
     }
   }
 
-  float agreement(const LatticePoint& p, const std::vector<DistanceMap>& maps, float reach, std::vector<float>& own,
-    std::vector<float>& seen) const
+  /** What the model is corrected by at a point. `own` and `seen` hold the whole reach for views that are not `near`. */
+  float agreement(const LatticePoint& p, const std::vector<DistanceMap>& maps, const std::vector<int>& near, float reach,
+    std::vector<float>& own, std::vector<float>& seen) const
   {
     const float far = float(this->Views.reach());
     if (this->Views.lattice().onBorder(p))
@@ -198,11 +231,11 @@ private:
       return -far;
     }
     float least = far;
-    for (std::size_t view = 0; view < maps.size(); ++view)
+    for (const int view : near)
     {
-      const FieldViews::Place place = this->Views.place(int(view), p);
+      const FieldViews::Place place = this->Views.place(view, p);
       own[view] = this->Views.inside(maps[view], place);
-      seen[view] = this->Views.inside(this->Views.observed(int(view)), place);
+      seen[view] = this->Views.inside(this->Views.observed(view), place);
       least = std::min(least, own[view]);
     }
     float sum = 0.0f, weights = 0.0f;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldViews.h"
 
-#include "SilhouetteRendering.h"
+#include "OutlineRendering.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace silhouette
 {
@@ -107,16 +108,39 @@ FieldViews::Place FieldViews::place(int view, const LatticePoint& p) const
   return place;
 }
 
+FieldViews::Region FieldViews::region(int view, const LatticePoint& lowest, int size) const
+{
+  constexpr double guard = 1e-3; // px: more than the corners' places and the points' are rounded by
+  const LatticeProjection& projection = this->OnLattice[view];
+  const double infinity = std::numeric_limits<double>::infinity();
+  Region region{ infinity, -infinity, infinity, -infinity, infinity };
+  for (int n = 0; n < 8; ++n)
+  {
+    const LatticePoint o = cornerOffset(n);
+    const HomogeneousPixel h =
+      projection({ lowest.i + (size - 1) * o.i, lowest.j + (size - 1) * o.j, lowest.k + (size - 1) * o.k });
+    if (!(h.W > projection.minimumDepth))
+    {
+      return {};
+    }
+    const double inverse = 1.0 / h.W, u = h.U * inverse, v = h.V * inverse;
+    region = { std::min(region.firstU, u - guard), std::max(region.lastU, u + guard), std::min(region.firstV, v - guard),
+      std::max(region.lastV, v + guard), std::min(region.octantsPerPixel, 0.999 * h.W * this->DepthScale[view]) };
+  }
+  return region;
+}
+
 std::vector<BinaryImage> FieldViews::render(const Mesh& mesh, const std::vector<int>& views, Execution& execution) const
 {
   std::vector<BinaryImage> images(views.size());
+  const OutlineRenderer renderer(mesh);
   execution.forRanges(views.size(), 1,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t i = first; i < last; ++i)
       {
         const PreparedView& view = (*this->Views)[views[i]];
-        images[i] = renderSilhouette(mesh, this->Projections[views[i]], view.width, view.height, RenderedSides::One);
+        images[i] = renderer.render(this->Projections[views[i]], view.width, view.height);
       }
     });
   return images;

@@ -55,6 +55,19 @@ public:
       : float(this->Reach);
   }
 
+  /** A box of pixels around a cube of lattice points, and the least octantsPerPixel in it; 0 where it is not all seen. */
+  struct Region
+  {
+    double firstU, lastU, firstV, lastV, octantsPerPixel;
+  };
+  Region region(int view, const LatticePoint& lowest, int size) const;
+  /** Is inside() the whole reach for all points of a region? May say no where it is. */
+  bool wholeReach(const DistanceMap& map, const Region& region) const
+  {
+    return float(map.reach * region.octantsPerPixel) >= float(this->Reach) &&
+      map.farInside(region.firstU, region.lastU, region.firstV, region.lastV);
+  }
+
 private:
   void project(int view);
 
