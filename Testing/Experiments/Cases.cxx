@@ -49,7 +49,7 @@ const std::vector<Object>& objects()
   static const std::vector<Object> table = {
       {"sphere", SyntheticShape::Sphere, true, 0},    {"pebble", SyntheticShape::Pebble, true, 0},
       {"torus", SyntheticShape::Torus, false, 1},     {"jug", SyntheticShape::Jug, false, 1},
-      {"pumpkin", SyntheticShape::Pumpkin, false, 0}, {"twig", SyntheticShape::Twig, false, 0}};
+      {"pumpkin", SyntheticShape::Pumpkin, false, 0}, {"twig", SyntheticShape::Twig, false, 0, true}};
   return table;
 }
 

@@ -23,6 +23,8 @@ struct Object
   SyntheticShape shape;
   bool convex;
   int genus;
+  /** Thinner than an octant: marching cubes breaks it, at any depth of the study; so the reference is the solid itself. */
+  bool thin = false;
 };
 
 /** A kind of noise, with the strengths that the study takes: weak, middle, strong. */

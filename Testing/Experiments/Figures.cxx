@@ -158,7 +158,7 @@ public:
 
   Picture make()
   {
-    const bool isThin = this->TheSubject.object.shape == SyntheticShape::Twig; // more leaves nothing
+    const bool isThin = this->TheSubject.object.thin; // more leaves nothing
     std::vector<Picture> rows;
     for (const Shown& shown : ShownNoises)
     {

@@ -145,6 +145,8 @@ const Stage Stages[] = {
     {"no-noise-stages", "without all three: labels by votes, covered",
      [](LocalHullOptions& o)
      { o.repairSilhouettes = o.correction.alignViews = o.correction.moveSurface = false; }},
+    {"no-tunnels", "without the filling of tunnels",
+     [](LocalHullOptions& o) { o.tunnels.fillTunnels = false; }},
     {"no-thin-hulls", "without thin hulls", [](LocalHullOptions& o) { o.thinHulls = false; }},
     {"no-bridges", "without bridges", [](LocalHullOptions& o) { o.bridgeGap = 0; }},
     {"no-cavities", "without the filling of cavities", [](LocalHullOptions& o) { o.fillCavities = false; }},

@@ -38,7 +38,8 @@ triangulation and surface reconstruction are given every n-th point of exact mar
 
 const char* const Measures = R"(
 Everything is carved in the same cube from -1 to 1, so that all methods share their octants. The *reference*
-is the visual hull: exact marching cubes of the clean silhouettes, two generations deeper (one at depth 9).
+is the visual hull: exact marching cubes of the clean silhouettes, two generations deeper (one at depth 9). Of the twig, which is thinner than an octant, marching cubes leaves pieces at any depth: its
+reference is the solid's own mesh, so that what is missing of a surface and what is too much both count.
 The *error* is
 the mean of two mean distances, from the surface to the reference and back, in leaf octants, over every n-th
 triangle of each (12,000 or so; 3,000 for Delaunay triangulation, convex hull and surface reconstruction),

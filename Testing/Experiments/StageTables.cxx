@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 namespace silhouette::experiments
@@ -24,6 +25,14 @@ const Row* find(const std::vector<Row>& rows, const Row& like, const std::string
   const auto found =
       std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return sameRun(row, wanted); });
   return found == rows.end() ? nullptr : &*found;
+}
+
+std::vector<Row> thinOnes(const std::vector<Row>& rows, bool thin)
+{
+  std::vector<Row> found;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(found),
+               [thin](const Row& row) { return objectNamed(row.at.object).thin == thin; });
+  return found;
 }
 
 bool isUnder(const Row& row, const Condition& condition)
@@ -103,12 +112,11 @@ std::string scalingCell(const std::vector<Row>& rows, const std::string& object,
   return strict > 0.0 ? format("%.2f", ours / strict) : "";
 }
 
-} // namespace
-
-std::string ablationTable(const std::vector<Row>& rows)
+/** Of objects that are all solids or all thin. */
+std::string tableOfKind(const std::vector<Row>& rows, const std::string& objects)
 {
   const std::vector<Condition> conditions = conditionsOf(rows);
-  std::vector<std::string> cells = {"stages"};
+  std::vector<std::string> cells = {objects};
   for (const Condition& condition : conditions)
   {
     cells.push_back(describeNoise(condition.noise, condition.strength));
@@ -138,6 +146,29 @@ std::string ablationTable(const std::vector<Row>& rows)
     }
     counts(method.name);
     text += line(cells);
+  }
+  return text;
+}
+
+} // namespace
+
+std::string ablationTable(const std::vector<Row>& rows)
+{
+  std::string text;
+  for (const bool thin : {false, true})
+  {
+    const std::vector<Row> some = thinOnes(rows, thin);
+    std::set<std::string> names;
+    for (const Row& row : some)
+    {
+      names.insert(row.at.object);
+    }
+    std::string joined;
+    for (const std::string& name : names)
+    {
+      joined += (joined.empty() ? "" : ", ") + name;
+    }
+    text += some.empty() ? "" : (text.empty() ? "" : "\n") + tableOfKind(some, joined);
   }
   return text;
 }

@@ -325,7 +325,7 @@ std::string targetTable(const std::vector<Row>& rows)
     {
       const double value = reached(target, rows, name);
       cells.push_back(ratioCell(value, target.reach));
-      if (name != "twig" && !std::isnan(value))
+      if (!objectNamed(name).thin && !std::isnan(value))
       {
         solids.push_back(value);
       }

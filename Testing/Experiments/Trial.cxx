@@ -80,6 +80,11 @@ Subject::Subject(const Object& which, const Settings& settings, Execution& execu
 {
   const Case clean{which.name, CleanName, 0.0, 0};
   this->capture = synthesizeCapture(this->solid.surface(), captureOptions(clean, settings), execution);
+  if (which.thin)
+  {
+    this->reference = std::make_unique<Yardstick>(this->solid.surface());
+    return;
+  }
   const PreparedViews views(viewsOf(this->capture), ViewOptions(), execution);
   this->reference = std::make_unique<Yardstick>(exactCubes(views, referenceDepth(settings.depth), execution),
                                                 exactCubes(views, settings.depth, execution),

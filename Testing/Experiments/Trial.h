@@ -54,7 +54,8 @@ struct Subject
   const Object& object;
   Yardstick solid;                      ///< its own mesh
   SyntheticCapture capture;             ///< the clean masks; the noise is that of the last trial
-  std::unique_ptr<Yardstick> reference; ///< exact marching cubes of the clean masks, two generations deeper
+  /** Exact marching cubes of the clean masks, two generations deeper; the solid's own mesh where it is thin. */
+  std::unique_ptr<Yardstick> reference;
 };
 
 /** One case under work. */
