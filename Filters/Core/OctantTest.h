@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * The progressive test of one octant in one view: what does the convex polygon of its eight projected corners
- * hold? First its bounding box against the summed-area table, then, only where that is undecided, the exact
- * polygon row by row. Cost linear in the polygon's rows.
+ * hold? First its bounding box against the view's tiles, then, only where that is undecided, the corners' pixels and
+ * the exact polygon row by row. Cost linear in the polygon's rows.
  */
 #pragma once
 
