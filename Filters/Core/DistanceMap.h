@@ -47,7 +47,7 @@ struct DistanceMap
     return dx == 0.0 && dy == 0.0 ? inner : std::max(-this->reach, inner - float(std::sqrt(dx * dx + dy * dy)));
   }
 
-  /** Is the value the whole reach everywhere between these places? May say no where it is. Cost: four look-ups. */
+  /** Is the value, but for rounding, the whole reach everywhere between these places? May say no where it is. Cost: four look-ups. */
   bool farInside(double firstU, double lastU, double firstV, double lastV) const;
 };
 

@@ -4,8 +4,6 @@
 #include "Error.h"
 #include "MeshCheck.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -162,8 +160,7 @@ void fill(const Polygon& polygon, BinaryImage& image)
 
 } // namespace
 
-BinaryImage renderSilhouette(
-  const Mesh& mesh, const Projection& projection, int width, int height, RenderedSides sides)
+BinaryImage renderSilhouette(const Mesh& mesh, const Projection& projection, int width, int height)
 {
   if (width < 1 || height < 1)
   {
@@ -188,11 +185,7 @@ BinaryImage renderSilhouette(
   }
   for (const Triangle& triangle : mesh.triangles)
   {
-    // The determinant's sign is that of the image's orientation, and 0 for triangles seen edge-on: they are kept.
-    if (sides == RenderedSides::Both || points[triangle[0]].cross(points[triangle[1]]).dot(points[triangle[2]]) >= 0.0)
-    {
-      fill(cutByNearPlane(points, triangle, nearPlane), image);
-    }
+    fill(cutByNearPlane(points, triangle, nearPlane), image);
   }
   return image;
 }

@@ -11,13 +11,6 @@
 namespace silhouette
 {
 
-/** Which triangles are rendered. One side alone is the whole silhouette of a closed surface, at less cost. */
-enum class RenderedSides : int
-{
-  Both = 0,
-  One = 1 ///< those that face the camera, or all those that do not, as the projection's handedness goes
-};
-
 /**
  * Render `mesh` in an image of `width` x `height` pixels: a pixel is object iff its centre, (column, row),
  * lies in the projection of one of the triangles, whichever way that runs; triangles are closed, border
@@ -30,7 +23,6 @@ enum class RenderedSides : int
  * projection that is not finite. Cost: the points, and for each triangle the rows that it covers and the
  * pixels that it sets.
  */
-BinaryImage renderSilhouette(const Mesh& mesh, const Projection& projection, int width, int height,
-  RenderedSides sides = RenderedSides::Both);
+BinaryImage renderSilhouette(const Mesh& mesh, const Projection& projection, int width, int height);
 
 } // namespace silhouette

@@ -185,3 +185,29 @@ TEST(DistanceMap, BetweenPixelsItIsBilinearAndBeyondTheImageItFalls)
     }
   }
 }
+
+TEST(DistanceMap, WhatIsCalledFarInsideIsAtTheReach)
+{
+  Random random(3);
+  int far = 0;
+  for (int round = 0; round < 20; ++round)
+  {
+    const BinaryImage image = randomMask(90, 70, random);
+    const DistanceMap map = mapOf(image, 3.0);
+    for (int box = 0; box < 200; ++box)
+    {
+      const double u = random.uniform(-5, 90), v = random.uniform(-5, 70);
+      const double width = random.uniform(0, 12), height = random.uniform(0, 12);
+      if (!map.farInside(u, u + width, v, v + height))
+      {
+        continue;
+      }
+      ++far;
+      for (int n = 0; n < 36; ++n)
+      {
+        EXPECT_NEAR(map.at(u + width * (n % 6) / 5.0, v + height * (n / 6) / 5.0), map.reach, 1e-5);
+      }
+    }
+  }
+  EXPECT_GT(far, 20);
+}
