@@ -14,7 +14,7 @@ import sys
 
 from paraview.simple import *
 
-from pictures import CLAY, look_from_first_camera, white_view
+from pictures import look_from_first_camera, show_mesh, white_view
 
 parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
 parser.add_argument("capture")
@@ -40,6 +40,6 @@ SaveData(arguments.mesh, proxy=hulls)
 
 # The picture.
 view = white_view(600, 600)
-Show(hulls, view, DiffuseColor=CLAY)
+show_mesh(hulls, view)
 look_from_first_camera(view, reader)
 SaveScreenshot(arguments.picture, view)

@@ -2,11 +2,17 @@
 """What the scripts beside this file share: a white view, the first camera's place, colours by state, sheets."""
 
 import os
+import sys
 
+import paraview.simple
 from paraview import servermanager
-from paraview.simple import ColorBy, CreateView, GetColorTransferFunction, ResetCamera, Show, Text
+from paraview.simple import (
+    ColorBy, CreateView, GenerateSurfaceNormals, GetColorTransferFunction, ResetCamera, Show, Text)
 from vtkmodules.vtkFiltersCore import vtkImageAppend
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+
+if not hasattr(paraview.simple, "SilhouetteOctree"):
+    sys.exit("the Silhouette plugin is not loaded: set PV_PLUGIN_PATH to the folder that it was built into")
 
 CLAY = (0.86, 0.80, 0.72)
 GREY = (0.25, 0.25, 0.25)
@@ -15,10 +21,8 @@ STATES = {1: ("intersection", (0.95, 0.76, 0.48)), 2: ("inside", (0.42, 0.60, 0.
 
 def white_view(width, height):
     """A render view on a white ground, without the axes in its corner."""
-    view = CreateView("RenderView", ViewSize=[width, height], UseColorPaletteForBackground=0,
+    return CreateView("RenderView", ViewSize=[width, height], UseColorPaletteForBackground=0,
                       Background=[1.0, 1.0, 1.0], OrientationAxesVisibility=0)
-    view.OrientationAxesLabelColor = GREY
-    return view
 
 
 def look_from_first_camera(view, reader):
@@ -36,9 +40,15 @@ def look_from_first_camera(view, reader):
     ResetCamera(view)
 
 
+def show_mesh(mesh, view):
+    """A mesh, shaded smoothly."""
+    return Show(GenerateSurfaceNormals(Input=mesh, Splitting=0), view, DiffuseColor=CLAY, Ambient=0.2)
+
+
 def color_by_state(display):
     """Octants by State, a category with a colour each."""
     ColorBy(display, ("CELLS", "State"))
+    display.Ambient = 0.4
     colors = GetColorTransferFunction("State")
     colors.InterpretValuesAsCategories = 1
     colors.AnnotationsInitialized = 1

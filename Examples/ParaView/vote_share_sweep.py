@@ -14,7 +14,7 @@ import sys
 
 from paraview.simple import *
 
-from pictures import CLAY, label, look_from_first_camera, white_view, write_sheet
+from pictures import label, look_from_first_camera, show_mesh, white_view, write_sheet
 
 parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
 parser.add_argument("capture")
@@ -52,7 +52,7 @@ if number_of_views <= arguments.votes:
 
 view = white_view(400, 400)
 sweep(arguments.votes, number_of_views)  # the largest surface: all frames look at it from one place
-Show(cubes, view, DiffuseColor=CLAY)
+show_mesh(cubes, view)
 look_from_first_camera(view, reader)
 words = label(view, "")
 
