@@ -4,14 +4,13 @@
 import os
 import sys
 
-import paraview.simple
 from paraview import servermanager
 from paraview.simple import (
     ColorBy, CreateView, GenerateSurfaceNormals, GetColorTransferFunction, ResetCamera, Show, Text)
 from vtkmodules.vtkFiltersCore import vtkImageAppend
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
-if not hasattr(paraview.simple, "SilhouetteOctree"):
+if not hasattr(servermanager.filters, "SilhouetteOctree"):
     sys.exit("the Silhouette plugin is not loaded: set PV_PLUGIN_PATH to the folder that it was built into")
 
 CLAY = (0.86, 0.80, 0.72)
