@@ -26,7 +26,8 @@ parser.add_argument("picture")
 parser.add_argument("--depth", type=int, default=7)
 arguments = parser.parse_args()
 
-Connect(arguments.host, arguments.port)  # what is made from here on is made there
+if not Connect(arguments.host, arguments.port, timeout=20):  # what is made from here on is made there
+    sys.exit(f"{arguments.host}:{arguments.port}: no server; the messages above say why")
 ranks = servermanager.ActiveConnection.GetNumberOfDataPartitions()
 
 reader = SilhouetteCaptureReader(FileName=arguments.capture)

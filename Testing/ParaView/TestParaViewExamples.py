@@ -25,11 +25,12 @@ DINOSAUR = pathlib.Path(os.environ.get("SILHOUETTE_REAL_DATA") or TREE.parent / 
 KEY = ("--carving", "strict", "--key", "blue:0.08", "--largest-region")
 # Open MPI: as root, and more ranks than processors. Others do not look at these.
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
-ENVIRONMENT = {**os.environ, **MPI, "PV_PLUGIN_PATH": str(PLUGINS)}
+# What pvpython's own MPI has put there would make mpirun believe to be one of its ranks.
+ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PMI_"))}
+ENVIRONMENT.update(MPI, PV_PLUGIN_PATH=str(PLUGINS))
 SCRIPTS = ("photographs_to_mesh.py", "vote_share_sweep.py", "growing_octree.py", "on_a_server.py")
 
 sys.path.append(str(TREE / "Testing" / "Examples"))
-os.environ["PV_PLUGIN_PATH"] = str(PLUGINS)
 
 from drawn import faults, pixels_of  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
@@ -230,10 +231,14 @@ class OnAServer(unittest.TestCase):
         self.server = subprocess.Popen([launcher, "-n", str(self.RANKS), BIN / "pvserver", f"--server-port={self.port}"],
                                        env=ENVIRONMENT, stdout=self.log, stderr=self.log)
         self.addCleanup(self.stop)
-        for _ in range(300):
-            if "Accepting connection" in (folder / "server.txt").read_text() or self.server.poll() is not None:
+        for _ in range(600):
+            said = (folder / "server.txt").read_text(errors="replace")
+            if "Accepting connection" in said:
                 return
+            if self.server.poll() is not None:
+                break
             time.sleep(0.1)
+        self.fail(f"the server did not start: {said}")
 
     def stop(self):
         if self.server.poll() is None:
