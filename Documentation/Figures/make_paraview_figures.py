@@ -32,7 +32,7 @@ sys.path.append(str(EXAMPLES))
 from pictures import (  # noqa: E402
     GREY, color_by_state, label, look_from_first_camera, show_mesh, white_view, write_sheet)
 
-BIN = pathlib.Path(sys.executable).parent
+BIN = pathlib.Path("/proc/self/exe").resolve().parent  # where pvpython is; sys.executable does not say
 
 
 class Pipeline:
@@ -52,11 +52,17 @@ def save(path, view):
     return str(path)
 
 
+def legend(colors, view, **properties):
+    """The colours' bar, in grey letters."""
+    bar = GetScalarBar(colors, view)
+    SetProperties(bar, TitleColor=GREY, LabelColor=GREY, Visibility=1, **properties)
+
+
 def side_by_side(folder, panels, sheet):
     """`panels` draw one after the other: functions that get a view and return what to hide again."""
     files = []
     for number, panel in enumerate(panels):
-        view = white_view(450, 450)
+        view = white_view(400, 400)
         panel(view)
         files.append(save(folder / f"panel-{number}.png", view))
         Delete(view)
@@ -69,10 +75,8 @@ def cameras(captures, folder, target):
     made = Pipeline(captures[0], 7)
     view = white_view(900, 500)
     show_mesh(made.hulls, view)
-    lines = Show(OutputPort(made.reader, 1), view, LineWidth=1.5)
-    lines.SetScalarBarVisibility(view, True)
-    bar = GetScalarBar(GetColorTransferFunction("View"), view)
-    bar.TitleColor = bar.LabelColor = GREY
+    Show(OutputPort(made.reader, 1), view, LineWidth=1.5)
+    legend(GetColorTransferFunction("View"), view, Title="View", ComponentTitle="", RangeLabelFormat="%.0f")
     view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = (4.0, -8.0, 3.5), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)
     ResetCamera(view)
     view.GetActiveCamera().Zoom(1.5)
@@ -83,16 +87,14 @@ def octree(captures, folder, target):
     """The octree by state: whole, and cut open by ParaView's Clip."""
     made = Pipeline(captures[0], 6)
     half = Clip(Input=made.octree, Invert=1)
-    half.HyperTreeGridClipper.Normal = [0.0, 1.0, 0.0]
+    half.HyperTreeGridClipper.Normal = [0.0, -1.0, 0.0]
 
     def panel(source, words, bar):
         def draw(view):
             colors = color_by_state(Show(source, view))
             look_from(view)
             if bar:
-                legend = GetScalarBar(colors, view)
-                legend.TitleColor = legend.LabelColor = GREY
-                legend.Visibility = 1
+                legend(colors, view, Title="State", ComponentTitle="", WindowLocation="Upper Right Corner")
             label(view, words)
         return draw
 
@@ -115,9 +117,8 @@ def hulls(captures, folder, target):
         return all_of_it
 
     def by_hull(view):
-        display = Show(OutputPort(made.hulls, 1), view, Ambient=0.2)
+        display = Show(OutputPort(made.hulls, 1), view, Ambient=0.1)
         ColorBy(display, ("CELLS", "HullId"))
-        GetColorTransferFunction("HullId").ApplyPreset("KAAMS", True)
         display.RescaleTransferFunctionToDataRange()
 
     side_by_side(folder, [panel("Voting Marching Cubes", lambda view: show_mesh(made.cubes, view)),
