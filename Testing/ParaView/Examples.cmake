@@ -2,6 +2,8 @@
 if(NOT SILHOUETTE_PVPYTHON)
   return()
 endif()
+find_program(SILHOUETTE_XVFB_RUN NAMES xvfb-run)
+mark_as_advanced(SILHOUETTE_XVFB_RUN)
 set(display "")
 if(SILHOUETTE_XVFB_RUN)
   # The scripts draw one after the other: a server that resets itself when one has gone is not there for the next.
