@@ -124,9 +124,9 @@ class Document(unittest.TestCase):
     def test_the_properties(self):
         rows = re.findall(r"^\|([\w ]*)\| [\w, ]+ \| (`[^|]*`)[^|]*\| [^|]+\|$", self.TEXT, re.MULTILINE)
         self.assertGreater(len(rows), 7)
-        proxies = [make() for make in (SilhouetteCaptureReader, SilhouetteExtractor, SilhouetteOctree,  # noqa: F821
-                                       VotingMarchingCubes, LocalHullSurface)]  # noqa: F821
-        places = iter(proxies)
+        filters = servermanager.filters
+        places = iter([servermanager.sources.SilhouetteCaptureReader(), filters.SilhouetteExtractor(),
+                       filters.SilhouetteOctree(), filters.VotingMarchingCubes(), filters.LocalHullSurface()])
         for place, names in rows:
             proxy = next(places) if place.strip() else proxy
             for name in re.findall(r"\w+", names):
