@@ -20,6 +20,7 @@ import tempfile
 import time
 
 import numpy as np
+from paraview import servermanager
 from paraview.simple import *
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -161,11 +162,12 @@ WINDOWS = """
 from paraview.simple import *
 reader = SilhouetteCaptureReader(registrationName="projections.txt", FileName=r"{capture}/projections.txt",
                                  Images="Photographs")
-extractor = SilhouetteExtractor(registrationName="Silhouettes", Input=reader, KeyChannel="Blue", LargestRegion=1)
-octree = SilhouetteOctree(registrationName="Octree", Input=extractor, Depth=7)
+extractor = SilhouetteExtractor(registrationName="SilhouetteExtractor1", Input=reader, KeyChannel="Blue",
+                                LargestRegion=1)
+octree = SilhouetteOctree(registrationName="SilhouetteOctree1", Input=extractor, Depth=7)
 views = OutputPort(octree, 1)
-cubes = VotingMarchingCubes(registrationName="MarchingCubes", Input=octree, Views=views)
-hulls = LocalHullSurface(registrationName="LocalHulls", Input=cubes, Octree=octree, Views=views)
+cubes = VotingMarchingCubes(registrationName="VotingMarchingCubes1", Input=octree, Views=views)
+hulls = LocalHullSurface(registrationName="LocalHullSurface1", Input=cubes, Octree=octree, Views=views)
 view = GetActiveViewOrCreate("RenderView")
 view.UseColorPaletteForBackground, view.Background = 0, [1.0, 1.0, 1.0]
 Show(hulls, view, DiffuseColor=[0.86, 0.80, 0.72])
@@ -173,7 +175,7 @@ Show(OutputPort(reader, 1), view, LineWidth=1.5)
 view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [4.0, -8.0, 3.5], [0, 0, 0], [0, 0, 1]
 ResetCamera()
 view.GetActiveCamera().Zoom(1.6)
-SetActiveSource(octree)
+SetActiveSource(hulls)
 Render()
 open(r"{folder}/drawn", "w").close()
 """
@@ -189,9 +191,9 @@ def windows(captures, folder, target):
     """ParaView's windows with the pipeline, the octree's panel, the mesh and the cameras: a picture of the screen."""
     settings = folder / "home" / ".config" / "ParaView"
     settings.mkdir(parents=True)
-    version = ".".join(str(GetParaViewVersion()).split(".")[:2])
-    for patch in range(5):  # the file has the whole version in its name
-        (settings / f"ParaView{version}.{patch}.ini").write_text(SETTINGS)
+    manager = servermanager.vtkSMProxyManager
+    version = f"{manager.GetVersionMajor()}.{manager.GetVersionMinor()}.{manager.GetVersionPatch()}"
+    (settings / f"ParaView{version}.ini").write_text(SETTINGS)
     (folder / "windows.py").write_text(WINDOWS.format(capture=os.path.abspath(captures[0]), folder=folder))
     read, write = os.pipe()
     screen = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1240x800x24", "-nolisten", "tcp",

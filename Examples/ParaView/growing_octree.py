@@ -22,7 +22,6 @@ parser.add_argument("capture")
 parser.add_argument("folder")
 parser.add_argument("--depth", type=int, default=7)
 arguments = parser.parse_args()
-os.makedirs(arguments.folder, exist_ok=True)
 
 reader = SilhouetteCaptureReader(FileName=arguments.capture)
 extractor = SilhouetteExtractor(Input=reader)
@@ -30,18 +29,18 @@ octree = SilhouetteOctree(Input=extractor, Depth=arguments.depth)
 octree.UpdatePipeline()
 if octree.GetDataInformation().GetNumberOfCells() == 0:
     sys.exit(f"{arguments.capture}: no octree; the messages above say why")
+os.makedirs(arguments.folder, exist_ok=True)
 
 # Generations up to a limit, and of these a half, cut along an axis: both are hyper tree grids.
 limited = HyperTreeGridDepthLimiter(Input=octree)
 half = Clip(Input=limited, Invert=1)
 
 view = white_view(400, 400)
-shown = Show(limited, view)
-color_by_state(shown)
+color_by_state(Show(limited, view))
 look_from_first_camera(view, reader)
 sight = [focus - place for place, focus in zip(view.CameraPosition, view.CameraFocalPoint)]
-axis = max(range(3), key=lambda number: abs(sight[number]))
-half.HyperTreeGridClipper.Normal = [0.0 if number != axis else -sight[axis] / abs(sight[axis]) for number in range(3)]
+axis = max(range(3), key=lambda number: abs(sight[number]))  # the one that is nearest to the first camera's
+half.HyperTreeGridClipper.Normal = [-sight[number] if number == axis else 0.0 for number in range(3)]
 words = label(view, "")
 
 outside, inside = [], []
@@ -51,8 +50,7 @@ for generation in range(trees, arguments.depth + 1):
     for source, names, kind in ((limited, outside, "whole"), (half, inside, "half")):
         edge = 2 ** generation
         words.Text = f"generation {generation}: {edge} x {edge} x {edge}"
-        shown = Show(source, view)
-        color_by_state(shown)
+        color_by_state(Show(source, view))
         names.append(os.path.join(arguments.folder, f"{kind}-{generation:02}.png"))
         SaveScreenshot(names[-1], view)
         Hide(source, view)

@@ -74,5 +74,5 @@ GetColorTransferFunction("ProcessId").RescaleTransferFunction(0, max(1, ranks - 
 view.CameraParallelProjection = 1  # which looks at all three alike
 ResetCamera(view)
 view.CameraParallelScale *= 0.55  # fitted to a sphere around them, they fill the width
-label(view, f"octree, marching cubes, local hulls: {ranks} rank(s), a colour each")
+label(view, f"octree, marching cubes, local hulls; a colour for each of {ranks} ranks")
 SaveScreenshot(arguments.picture, view)

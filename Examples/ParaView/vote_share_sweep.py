@@ -22,7 +22,6 @@ parser.add_argument("folder")
 parser.add_argument("--votes", type=int, default=5, help="the last frame's background votes")
 parser.add_argument("--depth", type=int, default=7)
 arguments = parser.parse_args()
-os.makedirs(arguments.folder, exist_ok=True)
 
 reader = SilhouetteCaptureReader(FileName=arguments.capture)
 extractor = SilhouetteExtractor(Input=reader)
@@ -49,6 +48,7 @@ number_of_views = views()
 if number_of_views <= arguments.votes:
     sys.exit(f"{arguments.capture}: {number_of_views} views, too few for {arguments.votes} background votes; "
              "where there are none, the messages above say why")
+os.makedirs(arguments.folder, exist_ok=True)
 
 view = white_view(400, 400)
 sweep(arguments.votes, number_of_views)  # the largest surface: all frames look at it from one place

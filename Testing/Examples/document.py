@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What Documentation/pipelines.md says, for the tests that keep it true: its code blocks and its table."""
+"""What Documentation/pipelines.md and paraview.md say, for the tests that keep it true: code blocks and tables."""
 
 import pathlib
 import re
@@ -10,8 +10,8 @@ FENCE = re.compile(r"^(?:<!-- (?P<source>\S+) -->\n)?```(?P<language>\w*)\n(?P<c
                    re.DOTALL | re.MULTILINE)
 
 
-def text():
-    return (TREE / "Documentation" / "pipelines.md").read_text(encoding="utf-8")
+def text(name="pipelines.md"):
+    return (TREE / "Documentation" / name).read_text(encoding="utf-8")
 
 
 def blocks(document):
