@@ -29,7 +29,8 @@ CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, con
 
 /**
  * Labels of a shell that holds the survivors of `octree`, `points` with the cells around them, and all that the corrected capture's surface
- * passes. What of the corrected surface holds no survivor is left out.
+ * passes. What of the corrected surface holds no survivor is left out. Where its bricks end, the capture's field has to say what the octree
+ * says, as correctCapture() makes it: no surface leaves them but through intersection octants.
  */
 LatticeLabels correctedLabels(const Octree& octree, const CornerShell& shell, const std::vector<std::uint64_t>& points,
   const PreparedViews& views, const CorrectedCapture& capture, Execution& execution);

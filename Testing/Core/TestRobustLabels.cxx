@@ -274,13 +274,22 @@ TEST(RobustLabels, AFieldThatKnowsNothingOfTheObjectLosesNoSurvivor)
   some.insert(some.end(), clean.shell.cells.begin(), clean.shell.cells.end());
   std::sort(some.begin(), some.end());
   Random random(7);
-  for (const int kind : { 0 })
+  for (const int kind : { 0, 1 })
   {
     CorrectedCapture capture;
     capture.correction.field = BrickField(clean.octree.lattice, some, 3);
-    for (float& value : capture.correction.field->values())
+    BrickField& field = *capture.correction.field;
+    for (std::size_t n = 0; n < field.size(); ++n)
     {
-      value = kind == 0 ? -1.0f : float(random.uniform(-1.0, 1.0));
+      const LatticePoint p = fromMorton(field.code(n));
+      bool amidst = true; // where bricks end, the octree's say: correctCapture() sees to that
+      for (int neighbour = 0; neighbour < 27 && amidst; ++neighbour)
+      {
+        const LatticePoint q = neighbourOf(p, neighbour);
+        amidst = q.i >= 0 && q.j >= 0 && q.k >= 0 && field.find(mortonCode(q)) >= 0;
+      }
+      const float wild = kind == 0 ? -1.0f : float(random.uniform(-1.0, 1.0));
+      field.values()[n] = amidst ? wild : (clean.octree.touchesInside(p) ? 0.5f : -0.5f);
     }
     expectPromise(clean.labels(capture), clean.octree, "kind " + std::to_string(kind));
   }

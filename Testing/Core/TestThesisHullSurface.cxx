@@ -76,33 +76,34 @@ struct Scene
 TEST(ThesisHullSurface, KeepsThePromiseForEveryNoiseVoteAndSeed)
 {
   int runs = 0;
-  for (const int shape : { 1, 3 })
+  for (int shape = 0; shape <= 5; ++shape)
   {
     for (int kind = 0; kind <= 5; ++kind)
     {
       for (const int k : { 0, 3 })
       {
-        for (const std::uint64_t seed : { 1000u, 77000u })
+        if (k == 0 && shape > 1 && shape % 2 != kind % 2)
         {
-          try
-          {
-            const Scene run(shape, kind, k, 5, seed);
-            Execution execution;
-            const auto result = thesisHullSurface(run.covered, run.octree, {}, execution);
-            expectPromise(result.mesh, run.octree,
-              "shape " + std::to_string(shape) + " noise " + std::to_string(kind) + " votes " + std::to_string(k));
-            EXPECT_EQ(result.survivors, survivorsOf(run.octree));
-            ++runs;
-          }
-          catch (const NothingSurvives&)
-          {
-            EXPECT_EQ(k, 0);
-          }
+          continue; // half of the strict ones: each shape and each noise is there
+        }
+        try
+        {
+          const Scene run(shape, kind, k, 4, (shape + kind) % 2 == 0 ? 1000 : 77000);
+          Execution execution;
+          const auto result = thesisHullSurface(run.covered, run.octree, {}, execution);
+          expectPromise(result.mesh, run.octree,
+            "shape " + std::to_string(shape) + " noise " + std::to_string(kind) + " votes " + std::to_string(k));
+          EXPECT_EQ(result.survivors, survivorsOf(run.octree));
+          ++runs;
+        }
+        catch (const NothingSurvives&)
+        {
+          EXPECT_EQ(k, 0);
         }
       }
     }
   }
-  EXPECT_GE(runs, 36);
+  EXPECT_GE(runs, 50);
 }
 
 TEST(ThesisHullSurface, KeepsThePromiseForEveryOption)
@@ -188,7 +189,7 @@ TEST(ThesisHullSurface, ConcaveObjectsKeepTheirConcavities)
   const double leaf = torus.octree.lattice.leafEdge();
   EXPECT_LT(compareMeshes(result.mesh, torus.covered, 0.5 * leaf, torus.execution).mean, 0.25 * leaf);
   EXPECT_GT(s.volume, volume) << "a union holds what it is made of";
-  EXPECT_LT(s.volume, 1.08 * volume);
+  EXPECT_LT(s.volume, 1.065 * volume);
 }
 
 TEST(ThesisHullSurface, ALargerToleranceGivesFewerHullsAndMoreVolume)
