@@ -3,7 +3,8 @@
 #
 # Installs the Debian packages of Testing/packages.txt, those of the sections named.
 #
-#   bash Testing/install-packages.sh SECTION...      (sections: build, test, benchmarks)
+#   bash Testing/install-packages.sh SECTION...      (sections: build, test, paraview, benchmarks)
+#   bash Testing/install-packages.sh --list SECTION...      prints their names and installs nothing
 #
 # Does nothing, and needs neither root nor network, where everything is installed already. Otherwise it asks
 # apt-get, with sudo where not root, and refreshes apt's lists only where a package is not in them.
@@ -29,8 +30,13 @@ missing_of()
   done
 }
 
+only_list=no
+if [ "${1:-}" = --list ]; then
+  only_list=yes
+  shift
+fi
 if [ $# -eq 0 ]; then
-  echo "usage: $0 SECTION...   (sections of $list)" >&2
+  echo "usage: $0 [--list] SECTION...   (sections of $list)" >&2
   exit 1
 fi
 packages=()
@@ -42,6 +48,10 @@ for section in "$@"; do
   fi
   packages+=("${found[@]}")
 done
+if [ "$only_list" = yes ]; then
+  printf '%s\n' "${packages[@]}"
+  exit 0
+fi
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "This is not Debian: install the equivalents of these packages yourself." >&2
