@@ -189,7 +189,7 @@ public:
   ///@{
   /**
    * RepairSilhouettes: how deep in one view's background a corner lies that this view alone rejects; leaf
-   * octants, at least 0, default 1. Larger finds fewer blobs.
+   * octants, at least 0, default 0.5. Larger finds fewer blobs.
    */
   vtkSetMacro(BlobDepth, double);
   vtkGetMacro(BlobDepth, double);
@@ -198,7 +198,7 @@ public:
   ///@{
   /**
    * RepairSilhouettes: the mean depth, along the view, of what it alone cuts away; share of the object's
-   * extent, 0 to 1, default 0.09. Larger finds fewer blobs.
+   * extent, 0 to 1, default 0.125. Larger finds fewer blobs.
    */
   vtkSetMacro(BlobChord, double);
   vtkGetMacro(BlobChord, double);
