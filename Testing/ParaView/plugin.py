@@ -78,5 +78,11 @@ def field(data, name):
 
 
 def fetch(source, port=0):
-    """The data of an output, here in the client."""
+    """The data of an output, brought up to date and brought here, to the client."""
     return servermanager.Fetch(simple.OutputPort(source, port))
+
+
+def output(source, port=0):
+    """The same where client and server are one process, for what ParaView's Fetch takes apart: collections."""
+    source.UpdatePipeline()
+    return source.GetClientSideObject().GetOutputDataObject(port)
