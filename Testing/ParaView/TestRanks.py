@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""
+pvbatch with one, two and four ranks: each carves its piece of the octree, and the surfaces, gathered, are the serial
+ones, triangle for triangle.
+"""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PARAVIEW_BIN = pathlib.Path(os.environ["PARAVIEW_BIN"])
+PIPELINE = pathlib.Path(__file__).with_name("ranks_pipeline.py")
+
+
+def pvbatch(ranks, folder):
+    """Run the pipeline; what each rank has found, a list by rank."""
+    command = [PARAVIEW_BIN / "pvbatch"]
+    if ranks > 1:
+        command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", ranks, *command, "--symmetric"]
+    # Threads are shared out, so that four ranks do not ask for four times the processors.
+    environment = {**os.environ, "OMPI_MCA_rmaps_base_oversubscribe": "1", "VTK_SMP_MAX_THREADS": "1"}
+    done = subprocess.run([str(word) for word in (*command, PIPELINE, folder)], timeout=500, env=environment,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, errors="replace")
+    if done.returncode != 0:
+        raise AssertionError("pvbatch with %d ranks ended with %d:\n%s" % (ranks, done.returncode, done.stdout))
+    return [json.loads((folder / ("rank%d.json" % rank)).read_text()) for rank in range(ranks)]
+
+
+def triangles(found, surface):
+    """All ranks' triangles in one sorted list; coordinates as they were."""
+    return sorted(tuple(corners) for rank in found for corners in rank[surface])
+
+
+class TestRanks(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="vtksilhouette-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
+        cls.serial = pvbatch(1, cls.folder)
+
+    def test_the_serial_run_is_sound(self):
+        (rank,) = self.serial
+        self.assertEqual(rank["sound"], 1)
+        self.assertGreater(len(rank["cubes"]), 1000)
+        self.assertEqual((rank["ranks"], rank["piece"], rank["pieces"]), (1, 0, 1))
+
+    def check(self, ranks):
+        found = pvbatch(ranks, self.folder)
+        self.assertEqual([rank["ranks"] for rank in found], [ranks] * ranks)
+        self.assertEqual([(rank["piece"], rank["pieces"]) for rank in found], [(n, ranks) for n in range(ranks)])
+        for key in ("octants_tested", "intersection_octants", "inside_octants"):
+            self.assertEqual(sum(rank[key] for rank in found), self.serial[0][key], key)
+        for surface in ("cubes", "hulls"):
+            self.assertEqual(triangles(found, surface), triangles(self.serial, surface))
+            for rank in found:
+                self.assertGreater(len(rank[surface]), 0)
+                self.assertLess(len(rank[surface]), len(self.serial[0][surface]))
+        # The evaluation is the first rank's, of the whole.
+        self.assertEqual([rank["rows"] for rank in found], [self.serial[0]["rows"]] + [0] * (ranks - 1))
+        self.assertEqual(found[0]["sound"], 1)
+        self.assertEqual(found[0]["triangles"], self.serial[0]["triangles"])
+
+    def test_two_ranks(self):
+        self.check(2)
+
+    def test_four_ranks(self):
+        self.check(4)
+
+
+if __name__ == "__main__":
+    if not shutil.which("mpirun"):
+        print("skipped: there is no mpirun")
+        sys.exit(77)
+    if not (PARAVIEW_BIN / "pvbatch").exists():
+        print("skipped: there is no pvbatch in %s" % PARAVIEW_BIN)
+        sys.exit(77)
+    unittest.main()
