@@ -22,7 +22,8 @@ def pvbatch(ranks, folder):
     if ranks > 1:
         command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", ranks, *command, "--symmetric"]
     # Threads are shared out, so that four ranks do not ask for four times the processors.
-    environment = {**os.environ, "OMPI_MCA_rmaps_base_oversubscribe": "1", "VTK_SMP_MAX_THREADS": "1"}
+    environment = {**os.environ, "OMPI_MCA_rmaps_base_oversubscribe": "1", "VTK_SMP_MAX_THREADS": "1",
+                   "OMPI_MCA_mpi_yield_when_idle": "1"}
     done = subprocess.run([str(word) for word in (*command, PIPELINE, folder)], timeout=500, env=environment,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, errors="replace")
     if done.returncode != 0:
