@@ -41,7 +41,7 @@ def build():
     simple.SaveScreenshot(str(FOLDER / "octree.png"), view, ImageResolution=SIZE)
     colouring = list(display.ColorArrayName)
     grid = plugin.output(octree)
-    octant = grid.GetFieldData().GetArray("RootCube").GetComponent(0, 3) / 2**octree.Depth
+    octant = grid.GetFieldData().GetArray("RootCube").GetValue(3) / 2**octree.Depth
     simple.Hide(OutputPort(octree, 0), view)
 
     cubes = VotingMarchingCubes(registrationName="Cubes", Input=OutputPort(octree, 0), Views=OutputPort(octree, 1))
