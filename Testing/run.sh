@@ -76,6 +76,8 @@ build_plugin()
     cmake --build "$build_dir/paraview" --parallel "$jobs"
 }
 
+rm -f "$build_dir"{,/paraview}/Testing/run.log # those of an earlier run
+
 step "Packages"
 bash "$source_dir/Testing/install-packages.sh" build test
 echo "all there"

@@ -25,8 +25,6 @@ NUMBERS = ("IntVectorProperty", "DoubleVectorProperty", "IdTypeVectorProperty")
 NOT_IN_PROXIES = {
     ("vtkSilhouetteOctreeSource", "Bounds"): "BoundsOrigin and BoundsSize, which a box widget can hold, are the same",
     ("vtkSilhouetteOctreeSource", "View"): "images one by one are for programs; in a pipeline the input has them",
-    ("vtkSilhouetteOctreeSource", "InputData"): "a connection",
-    ("vtkSyntheticCaptureSource", "InputData"): "a source in ParaView has no optional input",
 }
 # Numbers that have no range, since the classes take any.
 ANY_NUMBER = {"Seed", "BoundsOrigin"}
@@ -59,7 +57,8 @@ ABOVE_ZERO = {"Share", "KeyExcess", "ContourReach", "ThinSmallestRadius", "ThinL
 # Ends that take long: the run is stopped with its first progress.
 LONG = {("Depth", 16), ("NumberOfViews", 10000), ("Refinement", 4.0), ("NoiseBlobs", 0), ("NoiseBlobs", 10000)}
 # Without a greatest value in the XML, and what limits them.
-LIMITED = {"BackgroundVotes": "the number of views less one", "SeedBlock": "the size of an int", "Alignments": "the time they take"}
+LIMITED = {"BackgroundVotes": "the number of views less one", "SeedBlock": "the size of an int",
+           "Alignments": "the time they take"}
 
 
 def settable(proxy):
@@ -168,7 +167,8 @@ class TestText(unittest.TestCase):
             text = header(proxy)
             setters = set(re.findall(r"vtkSet\w*Macro\((\w+)", text))
             setters |= set(re.findall(r"void (?:Set|Add)(\w+)\(", text))
-            setters = {name for name in setters if not re.search("To[A-Z]", name) and not name.endswith(("Connection", "Data"))} | ({"InputData"} if "void SetInputData(" in text else set())
+            setters = {name for name in setters
+                       if not re.search("To[A-Z]", name) and not name.endswith(("Connection", "Data"))}
             self.assertGreater(len(setters), 1, proxy.get("class"))
             commands = {each.get("command")[3:] for each in settable(proxy)}
             with self.subTest(proxy.get("class")):
@@ -266,7 +266,8 @@ class TestRanges(unittest.TestCase):
     def setUpClass(cls):
         cls.capture = SyntheticCapture(Width=64, Height=64, NumberOfViews=6)
         cls.octree = SilhouetteOctree(Input=simple.OutputPort(cls.capture, 0), Depth=4)
-        cls.cubes = VotingMarchingCubes(Input=simple.OutputPort(cls.octree, 0), Views=simple.OutputPort(cls.octree, 1))
+        cls.cubes = VotingMarchingCubes(Input=simple.OutputPort(cls.octree, 0),
+                                        Views=simple.OutputPort(cls.octree, 1))
         cls.cubes.UpdatePipeline()
         octree, views = (cls.octree, 0), (cls.octree, 1)
         cls.inputs = {
