@@ -27,7 +27,7 @@ step()
 }
 
 # ctest in the build tree $1, with the other arguments; the log is $1/Testing/run.log. That a filter selects none of
-# one tree's tests is no failure: see "Summary" for both.
+# one tree's tests is no failure; that it selects none of both is, see the summary.
 run_tests()
 {
   local tree="$1" log="$1/Testing/run.log"
@@ -119,7 +119,7 @@ else
 fi
 if ! grep -qsE '^ *[0-9]+% tests passed' "$build_dir"{,/paraview}/Testing/run.log; then
   echo "No test was run." >&2
-  status=1
+  exit 1
 fi
 if [ "$status" -eq 0 ] && [ "$paraview_status" -eq 0 ]; then
   echo "All tests passed."
