@@ -6,8 +6,6 @@
 #include "LatticeRegions.h"
 #include "VotingMarchingCubes.h"
 
-#include "vtkSMPTools.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -57,18 +55,6 @@ int referenceDepth(int depth)
 }
 
 } // namespace
-
-void SmpExecution::forRanges(std::size_t count, std::size_t grain, const Range& work)
-{
-  const auto range = [&work](vtkIdType first, vtkIdType last)
-  { work(std::size_t(first), std::size_t(last)); };
-  vtkSMPTools::For(0, vtkIdType(count), vtkIdType(std::max<std::size_t>(grain, 1)), range);
-}
-
-int SmpExecution::threads() const
-{
-  return std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads());
-}
 
 RootCube studyCube()
 {

@@ -8,6 +8,7 @@
 #include "Cases.h"
 #include "Octree.h"
 #include "PreparedViews.h"
+#include "SmpExecution.h"
 #include "Yardstick.h"
 
 #include <chrono>
@@ -31,14 +32,6 @@ public:
 
 private:
   std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
-};
-
-/** The core's loops by vtkSMPTools. */
-class SmpExecution : public Execution
-{
-public:
-  void forRanges(std::size_t count, std::size_t grain, const Range& work) override;
-  int threads() const override;
 };
 
 /**
