@@ -72,7 +72,7 @@ const std::vector<Order>& orders()
 {
   static const std::vector<Order> table = {// better, than, where, factor, allowance in octants
                                            {"hulls-robust", "cubes-exact", Where::Clean, 1.0, 0.005},
-                                           {"hulls-robust", "cubes-exact", Where::Noisy, 0.7, 0.005}};
+                                           {"hulls-robust", "cubes-exact", Where::Noisy, 0.9, 0.005}};
   return table;
 }
 
