@@ -115,7 +115,7 @@ std::size_t check(const StudyOptions& study)
 
 int runSteps(const StudyOptions& study, const Steps& steps)
 {
-  SmpExecution execution;
+  silhouette::SmpExecution execution;
   std::filesystem::create_directories(study.output);
   if (steps.study())
   {
