@@ -178,8 +178,9 @@ private:
           }
         }
       });
-    const std::uint64_t highest = shares.empty() ? 0 : blockBeyond(this->Cells.back().block, 7);
-    radixSort(shares, highest == 0 ? 0 : highestBit(highest) + 1, [](const Share& s) { return s.corners.block; });
+    // A step on any axis may carry into that axis's next bit, three above, in blocks before the last one too.
+    const int cellBits = shares.empty() ? 0 : highestBit(this->Cells.back().block | 1) + 1;
+    radixSort(shares, cellBits + 3, [](const Share& s) { return s.corners.block; });
     return shares;
   }
 

@@ -63,6 +63,30 @@ TEST(CornerShell, OfNoCellsAndOfTheFurthestOnes)
   }
 }
 
+/** A step may carry into a bit that no cell's code has, in a cell before the last one too. */
+TEST(CornerShell, SortsWhatCarriesBeyondTheLastCell)
+{
+  Execution execution;
+  Random random(7);
+  for (int run = 0; run < 3000; ++run)
+  {
+    std::set<std::uint64_t> cells, corners;
+    for (int n = 0; n < 3; ++n)
+    {
+      // Just before a power of two, where steps carry.
+      const auto coordinate = [&] { return std::max(0, (1 << random.below(9)) - random.below(3)); };
+      const LatticePoint p{ coordinate(), coordinate(), coordinate() };
+      cells.insert(mortonCode(p));
+      for (int c = 0; c < 8; ++c)
+      {
+        corners.insert(mortonCode(p + cornerOffset(c)));
+      }
+    }
+    const CornerShell shell = makeCornerShell({ cells.begin(), cells.end() }, execution);
+    ASSERT_TRUE(std::equal(corners.begin(), corners.end(), shell.corners.begin(), shell.corners.end())) << run;
+  }
+}
+
 TEST(CornerShell, SameBytesForAnyNumberOfThreads)
 {
   Random random(6);
