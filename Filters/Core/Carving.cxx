@@ -464,49 +464,4 @@ Octree carve(const LatticeViews& views, const CarveOptions& options, Execution& 
   return octree;
 }
 
-Octree mergeTrees(const std::vector<Octree>& parts)
-{
-  if (parts.empty())
-  {
-    throw InvalidInput("no parts of an octree to merge");
-  }
-  Octree whole = parts.front();
-  whole.undecided = UndecidedViews();
-  whole.statistics = CarveStatistics();
-  whole.statistics.carvedByView.assign(std::size_t(whole.viewCount), 0.0);
-  for (const auto& part : parts)
-  {
-    whole.statistics.octantsTested += part.statistics.octantsTested;
-    whole.statistics.viewTests += part.statistics.viewTests;
-    for (int view = 0; view < whole.viewCount; ++view)
-    {
-      whole.statistics.carvedByView[view] += part.statistics.carvedByView[view];
-    }
-  }
-  for (int g = whole.treeGeneration; g <= whole.lattice.depth; ++g)
-  {
-    std::vector<std::pair<std::uint64_t, OctantState>> octants;
-    for (const auto& part : parts)
-    {
-      const auto& generation = part.generations[g];
-      for (std::size_t i = 0; i < generation.size(); ++i)
-      {
-        octants.emplace_back(generation.code[i], generation.state[i]);
-      }
-    }
-    std::sort(octants.begin(), octants.end());
-    Generation merged;
-    std::uint32_t blocks = 0;
-    for (const auto& octant : octants)
-    {
-      merged.code.push_back(octant.first);
-      merged.state.push_back(octant.second);
-      merged.childBlock.push_back(blocks);
-      blocks += octant.second == OctantState::Intersection;
-    }
-    whole.generations[g] = std::move(merged);
-  }
-  return whole;
-}
-
 } // namespace silhouette

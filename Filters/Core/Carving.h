@@ -34,7 +34,4 @@ int treeGeneration(int depth);
  */
 Octree carve(const LatticeViews& views, const CarveOptions& options, Execution& execution);
 
-/** Carve parts of the root lattice put together again: the trees of all of them, in order. */
-Octree mergeTrees(const std::vector<Octree>& parts);
-
 } // namespace silhouette

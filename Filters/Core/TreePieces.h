@@ -36,6 +36,9 @@ std::vector<std::uint64_t> treesOfPiece(
 /** The octree with the given trees alone (ascending); its statistics stay those of the whole. Cost: linear in what is left. */
 Octree selectTrees(const Octree& octree, const std::vector<std::uint64_t>& trees);
 
+/** Carve parts of the root lattice put together again: the trees of all of them, in order. */
+Octree mergeTrees(const std::vector<Octree>& parts);
+
 /** The items of a piece where `items` are divided evenly, in order: [first, last). */
 struct PieceRange
 {

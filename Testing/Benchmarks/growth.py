@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What each generation costs: carve and exact surface of a capture, by the Python classes, a process for each depth.
 
-    growth.py CAPTURE [--key CHANNEL:EXCESS] [--depths 7-11] [--pieces N] [--bounds ...]
+    growth.py CAPTURE [--key CHANNEL:EXCESS] [--depths 7-11] [--pieces N]
 
 With --pieces the octree is made in pieces, one after another, and no surface is kept. The package vtksilhouette has to be on
 Python's path; memory is the operating system's account of the process.

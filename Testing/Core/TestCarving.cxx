@@ -3,6 +3,7 @@
 
 #include "CarvingTestCaptures.h"
 #include "CornerShell.h"
+#include "TreePieces.h"
 
 #include <gtest/gtest.h>
 
