@@ -60,7 +60,8 @@ public:
   Correction(const Mesh& surface, FieldViews& views, const FieldCorrectionOptions& options)
     : Options(options)
     , Views(views)
-    , Scale(std::max(1.0, views.lattice().cells() / ThoughtOutAt))
+    , Proportion(views.lattice().cells() / ThoughtOutAt)
+    , Scale(std::max(1.0, Proportion))
     , Surface(surface)
     , All(views.size())
   {
@@ -171,7 +172,7 @@ private:
   /** From the least distance to the model, and from the model to where the views agree. */
   void move(double deficit, Execution& execution)
   {
-    const double sigma = std::min(this->Options.greatestSmoothing * this->Scale, this->Options.smoothing * deficit);
+    const double sigma = std::min(this->Options.greatestSmoothing * this->Proportion, this->Options.smoothing * deficit);
     BrickField model = this->Least;
     for (std::size_t n = 0; n < model.size(); ++n)
     {
@@ -181,7 +182,7 @@ private:
     execution.checkpoint(0.75);
     const auto maps = this->Views.distances(this->Views.render(model.contourMesh(execution), this->All, execution), execution);
     execution.checkpoint(0.85);
-    const float reach = float(this->Options.contourReach * this->Scale);
+    const float reach = float(this->Options.contourReach * this->Proportion);
     execution.forRanges(model.size() / BlockPoints, 8,
       [&](std::size_t first, std::size_t last)
       {
@@ -255,7 +256,8 @@ private:
 
   const FieldCorrectionOptions& Options;
   FieldViews& Views;
-  double Scale;
+  double Proportion; ///< of the lattice's cells to those that the largest lengths are stated for
+  double Scale;      ///< the same, but that bands of the field and of views are never narrower than three octants
   const Mesh& Surface;
   std::vector<int> All;
   BrickField Least;
