@@ -28,6 +28,7 @@ void check(const FieldCorrectionOptions& options)
     }
   };
   require(options.smallestDeficit >= 0.0, "smallest deficit", options.smallestDeficit);
+  require(options.smallestShift >= 0.0, "smallest shift", options.smallestShift);
   require(options.alignments >= 1, "number of alignments", options.alignments);
   require(options.smoothing >= 0.0, "smoothing", options.smoothing);
   require(options.greatestSmoothing >= 0.0, "greatest smoothing", options.greatestSmoothing);
@@ -52,6 +53,23 @@ std::vector<std::uint64_t> cellsOf(const Mesh& surface, const Lattice& lattice)
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
+}
+
+/** Octants: the mean length of the shifts of the views that say anything. */
+double typicalShift(
+  const std::vector<ContourResidual>& residuals, const std::vector<int>& views, const FieldViews& fieldViews)
+{
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t n = 0; n < views.size(); ++n)
+  {
+    if (residuals[n].count > 0)
+    {
+      sum += residuals[n].shift.norm() / fieldViews.pixelsPerOctant(views[n]);
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : 0.0;
 }
 
 class Correction
@@ -285,10 +303,11 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
   fieldViews.observe(some, execution);
   execution.checkpoint(0.2);
   Correction correction(surface, fieldViews, options);
-  result.deficit =
-    std::max(0.0, typicalResidual(contourResiduals(fieldViews, surface, some, correction.limit(), execution)));
+  const auto residuals = contourResiduals(fieldViews, surface, some, correction.limit(), execution);
+  result.deficit = std::max(0.0, typicalResidual(residuals));
+  result.shift = typicalShift(residuals, some, fieldViews);
   execution.checkpoint(0.3);
-  if (result.deficit > options.smallestDeficit)
+  if (result.deficit > options.smallestDeficit || result.shift > options.smallestShift)
   {
     Phase correcting(execution, 0.3, 1.0);
     correction.run(result, correcting);

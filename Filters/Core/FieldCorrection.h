@@ -21,8 +21,10 @@ struct FieldCorrectionOptions
 {
   bool alignViews = true; ///< shift views against the camera's error, as far as the contours show it
   bool moveSurface = true; ///< correct the field for the noise's bias; without it the views' shifts alone count
-  /** Octants, 0 or more: silhouettes whose deficit is at most this are taken as they are; larger corrects less. */
-  double smallestDeficit = 0.05;
+  /** Octants, 0 or more: silhouettes whose deficit is at most this, and whose shift is small too, are taken as they are; larger corrects less. */
+  double smallestDeficit = 0.035;
+  /** Octants, 0 or more: the same for the mean shift between the surface's contours and the silhouettes', which cameras' errors raise first. */
+  double smallestShift = 0.025;
   int alignments = 2; ///< rounds of shifting, 1 or more; larger comes closer and costs in proportion
   /** Octants for each octant of deficit, 0 or more: standard deviation of the field's smoothing; larger is smoother. */
   double smoothing = 5.0;
@@ -39,6 +41,7 @@ struct FieldCorrection
 {
   std::optional<BrickField> field; ///< positive inside; nothing where the silhouettes need no correction
   double deficit = 0.0;            ///< octants: how far the observed contours lie outside the surface's
+  double shift = 0.0;              ///< octants: how far they are shifted against the surface's, the mean over the views
   double remainingDeficit = 0.0;   ///< the same after the views were shifted
   double alignment = 0.0;          ///< px: the mean length of the views' shifts
 };
