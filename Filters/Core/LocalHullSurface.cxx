@@ -338,6 +338,7 @@ LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& octree, cons
   Phase correcting(execution, 0.1, 0.5);
   const CorrectedCapture capture = correctCapture(imperfect, octree, survivors.shell, *views, options, correcting);
   surface.deficit = capture.correction.deficit;
+  surface.shift = capture.correction.shift;
   surface.alignment = capture.correction.alignment;
   surface.repairedPixels = capture.repairedPixels;
   LatticeLabels labels =

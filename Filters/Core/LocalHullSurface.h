@@ -68,6 +68,7 @@ struct LocalHullSurface
   std::uint64_t movedToHulls = 0;    ///< points moved for it
   std::uint64_t droppedOctants = 0;  ///< survivors given up as islands
   double deficit = 0.0;              ///< octants: the silhouettes' mean deficit before any correction; 0 without views
+  double shift = 0.0;                ///< octants: the mean shift of their contours against the surface's; 0 without views
   double alignment = 0.0;            ///< px, the mean length of the views' shifts; 0 where they were not shifted
   std::uint64_t repairedPixels = 0;  ///< pixels that were filled into silhouettes
   std::uint64_t movedToMiddle = 0;   ///< points moved to the middle of their edge against a self-intersection

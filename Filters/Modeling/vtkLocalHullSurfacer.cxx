@@ -63,6 +63,7 @@ void storeSurface(const silhouette::LocalHullSurface& found, const MeshOutput& o
   setField(surface, "HandleCorners", found.handleCorners);
   setField(surface, "TunnelCorners", found.tunnelCorners);
   setField(surface, "Deficit", found.deficit);
+  setField(surface, "Shift", found.shift);
   setField(surface, "Alignment", found.alignment);
   setField(surface, "RepairedPixels", found.repairedPixels);
 }
@@ -135,6 +136,7 @@ public:
     pair(self.BlobChord, options.repair.blobChord);
     pair(self.BlobCorners, options.repair.blobCorners);
     pair(self.SmallestDeficit, options.correction.smallestDeficit);
+    pair(self.SmallestShift, options.correction.smallestShift);
     pair(self.Smoothing, options.correction.smoothing);
     pair(self.GreatestSmoothing, options.correction.greatestSmoothing);
     pair(self.Gentleness, options.correction.gentleness);
@@ -274,6 +276,7 @@ void vtkLocalHullSurfacer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BlobChord: " << this->BlobChord << "\n";
   os << indent << "BlobCorners: " << this->BlobCorners << "\n";
   os << indent << "SmallestDeficit: " << this->SmallestDeficit << "\n";
+  os << indent << "SmallestShift: " << this->SmallestShift << "\n";
   os << indent << "Smoothing: " << this->Smoothing << "\n";
   os << indent << "GreatestSmoothing: " << this->GreatestSmoothing << "\n";
   os << indent << "Gentleness: " << this->Gentleness << "\n";

@@ -22,6 +22,7 @@
  * | | | fields `HandleCorners`, `TunnelCorners` | 64-bit unsigned, 1 | lattice points labelled inside to join handles that noise had cut; to fill narrow tunnels |
  * | | | field `DroppedOctants` | 64-bit unsigned, 1 | survivors given up as islands, in octants of the last generation's size |
  * | | | field `Deficit` | double, 1 | the silhouettes' mean deficit before any correction, in leaf octants; 0 without views |
+ * | | | field `Shift` | double, 1 | how far the silhouettes' contours are shifted against the surface's before any correction, mean over the views, in leaf octants; 0 without views |
  * | | | field `Alignment` | double, 1 | mean length of the views' shifts, in pixels; 0 where they were not shifted |
  * | | | field `RepairedPixels` | 64-bit unsigned, 1 | pixels filled into silhouettes |
  * | | | field `MovedToMiddle` | 64-bit unsigned, 1 | points moved to the middle of their edge against a self-intersection |
@@ -264,11 +265,21 @@ public:
 
   ///@{
   /**
-   * CorrectField: silhouettes whose deficit is at most this are taken as they are; leaf octants, at least 0,
-   * default 0.05. Larger corrects less.
+   * CorrectField: silhouettes whose deficit is at most this, and whose contours' mean shift is small too, are
+   * taken as they are; leaf octants, at least 0, default 0.035. Larger corrects less.
    */
   vtkSetMacro(SmallestDeficit, double);
   vtkGetMacro(SmallestDeficit, double);
+  ///@}
+
+  ///@{
+  /**
+   * CorrectField: silhouettes whose contours are shifted against the surface's by at most this, the mean over
+   * the views, and whose deficit is small too, are taken as they are; leaf octants, at least 0, default 0.025.
+   * Cameras' errors raise the shift before they raise the deficit. Larger corrects less.
+   */
+  vtkSetMacro(SmallestShift, double);
+  vtkGetMacro(SmallestShift, double);
   ///@}
 
   ///@{
@@ -460,6 +471,7 @@ protected:
   double BlobChord;
   int BlobCorners;
   double SmallestDeficit;
+  double SmallestShift;
   double Smoothing;
   double GreatestSmoothing;
   double Gentleness;

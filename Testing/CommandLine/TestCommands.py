@@ -13,7 +13,7 @@ METRICS = """views depth octants_tested view_tests inside intersection lost_no_c
 dropped_octants cavities_filled carved_by_view points triangles open_edges non_manifold_edges non_manifold_vertices
 self_intersections components genus mean_iou mean_xor seconds peak_memory_mib leaf_edge marching_cubes_components
 surface vote_share background_votes bounds per_view volume closed carving dilation uncovered_share
-strict_uncovered_share mode island_share deficit alignment repaired_pixels""".split()
+strict_uncovered_share mode island_share deficit shift alignment repaired_pixels""".split()
 TRUTH_METRICS = "mesh_to_truth_mean truth_to_mesh_mean truth_rms truth_hausdorff".split()
 
 

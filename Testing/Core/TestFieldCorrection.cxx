@@ -12,6 +12,7 @@
 
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 using namespace silhouette;
 using namespace silhouette::test;
@@ -186,9 +187,10 @@ TEST(FieldCorrection, CleanSilhouettesAreTakenAsTheyAre)
     EXPECT_LE(clean.correction.deficit, FieldCorrectionOptions().smallestDeficit) << int(shape);
     EXPECT_EQ(clean.correction.alignment, 0.0);
     FieldCorrectionOptions always;
-    always.smallestDeficit = 0.0;
+    EXPECT_LE(clean.correction.shift, FieldCorrectionOptions().smallestShift) << int(shape);
+    always.smallestDeficit = always.smallestShift = 0.0;
     Execution execution;
-    const bool any = clean.correction.deficit > 0.0;
+    const bool any = clean.correction.deficit > 0.0 || clean.correction.shift > 0.0;
     EXPECT_EQ(clean.correct(always, execution).field.has_value(), any);
   }
 }
@@ -294,10 +296,13 @@ TEST(FieldCorrection, EachPartDoesWhatItSaysAlone)
   EXPECT_LT(std::abs(corrected - hull), 0.5 * std::abs(least - hull));
 
   options = {};
-  options.smallestDeficit = 1.001 * both.deficit;
-  EXPECT_FALSE(noisy.correct(options, execution).field);
-  options.smallestDeficit = 0.999 * both.deficit;
-  EXPECT_TRUE(noisy.correct(options, execution).field);
+  for (const auto& [deficit, shift, corrects] :
+    { std::tuple(1.001, 1.001, false), std::tuple(0.999, 1.001, true), std::tuple(1.001, 0.999, true) })
+  {
+    options.smallestDeficit = deficit * both.deficit;
+    options.smallestShift = shift * both.shift;
+    EXPECT_EQ(noisy.correct(options, execution).field.has_value(), corrects) << deficit << " " << shift;
+  }
   EXPECT_FALSE(correctField(Mesh(), noisy.lattice, noisy.views, {}, execution).field);
 }
 
@@ -341,7 +346,7 @@ TEST(FieldCorrection, OptionsOutOfRangeAreErrorsThatNameTheValue)
       EXPECT_NE(std::string(error.what()).find(value), std::string::npos) << error.what();
     }
   };
-  for (const auto member : { &Options::smallestDeficit, &Options::smoothing, &Options::greatestSmoothing,
+  for (const auto member : { &Options::smallestDeficit, &Options::smallestShift, &Options::smoothing, &Options::greatestSmoothing,
          &Options::gentleness, &Options::contourReach })
   {
     Options options;

@@ -65,7 +65,7 @@ TEST(VtkLocalHullSurfacer, KeepsItsPromise)
     EXPECT_EQ(field(surface, "IgnoredPoints"), 0);
     EXPECT_EQ(field(surface, "DroppedOctants"), 0);
     for (const char* name : {"CoveredOctants", "CoveringCorners", "Bridges", "CavitiesFilled", "MovedToMiddle",
-                             "Deficit", "Alignment", "RepairedPixels"})
+                             "Deficit", "Shift", "Alignment", "RepairedPixels"})
     {
       EXPECT_GE(field(surface, name), 0) << name;
     }
@@ -120,7 +120,7 @@ TEST(VtkLocalHullSurfacer, IsAProperFilter)
                {"FillCavities", "CoverOffset", "BridgeGap", "HullTolerance", "SeedBlock", "GenerateNormals",
                 "OutputPointsPrecision", "Mode", "IslandShare", "RepairSilhouettes", "AlignViews", "CorrectField",
                 "ThinHulls", "JoinHandles", "HandleReach", "FillTunnels", "TunnelWidth", "LoopLength", "SpeckleArea", "SpeckleShare", "BlobDepth", "BlobChord", "BlobCorners",
-                "SmallestDeficit", "Smoothing", "GreatestSmoothing", "Gentleness", "Alignments", "ContourReach",
+                "SmallestDeficit", "SmallestShift", "Smoothing", "GreatestSmoothing", "Gentleness", "Alignments", "ContourReach",
                 "ThinSmallestRadius", "ThinLargestRadius", "ThinReach", "SliceAxis", "SliceTolerance",
                 "ChainTolerance", "ChainOverlap"});
   expectModifies(filter, [&] { filter->SetModeToThesis(); });

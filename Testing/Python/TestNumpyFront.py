@@ -92,14 +92,15 @@ class TestReconstruct(unittest.TestCase):
 
     def test_the_top_row_is_the_top(self):
         """Upside down, the views disagree about where the object is: much less survives, or nothing."""
-        points, triangles = reconstruct(self.masks, self.projections, depth=5)
+        points, triangles = reconstruct(self.masks, self.projections, depth=5, surface="marching-cubes")
         upright = volume_of(points, triangles)
         box = np.stack([CENTRE - 1.0, CENTRE + 1.0], axis=1).ravel()
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 flipped = [np.roll(mask[::-1], 30, axis=0) for mask in self.masks]
-                points, triangles = reconstruct(flipped, self.projections, depth=5, bounds=box, carving="strict")
+                points, triangles = reconstruct(flipped, self.projections, depth=5, bounds=box, carving="strict",
+                                                surface="marching-cubes")
         except RuntimeError:
             return
         self.assertLess(volume_of(points, triangles), 0.9 * upright)

@@ -344,6 +344,7 @@ void Reconstruction::gatherMetrics(vtkPolyData* stored)
     metrics["mode"] = this->Options.mode;
     metrics["island_share"] = this->Options.islandShare;
     metrics["deficit"] = fieldValue(this->Surface, "Deficit");
+    metrics["shift"] = fieldValue(this->Surface, "Shift");
     metrics["alignment"] = fieldValue(this->Surface, "Alignment");
     metrics["repaired_pixels"] = fieldCount(this->Surface, "RepairedPixels");
   }
