@@ -20,6 +20,8 @@ namespace silhouette
 namespace
 {
 
+constexpr double CoverReach = 3.0; ///< octants: corners farther outside than that are alike
+
 void check(const Octree& octree, const PreparedViews* views, const LocalHullOptions& options)
 {
   if (views && octree.fingerprint != views->fingerprint())
@@ -284,7 +286,18 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
 {
   surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
   execution.checkpoint(0.1);
-  CoveringResult covering = coverSurvivors(labels, survivors.bridges, loopSteps(labels.octree().lattice, options.handles));
+  std::optional<LatticeViews> latticeViews;
+  std::optional<CornerDepth> depth; // a field tells how far outside a corner is, votes do not
+  if (views)
+  {
+    latticeViews.emplace(*views, labels.octree().lattice);
+  }
+  if (views && !labels.field())
+  {
+    depth.emplace(*latticeViews, labels.octree().backgroundVotes, CoverReach);
+  }
+  CoveringResult covering = coverSurvivors(
+    labels, survivors.bridges, loopSteps(labels.octree().lattice, options.handles), depth ? &*depth : nullptr);
   surface.coveredOctants = covering.coveredCells.size();
   surface.coveringCorners = covering.coveringCorners.size();
   execution.checkpoint(0.3);
@@ -296,11 +309,6 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
   surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
   execution.checkpoint(0.4);
   const CrossingPlacer place(labels, crossings, views, added, options.coverOffset);
-  std::optional<LatticeViews> latticeViews;
-  if (views)
-  {
-    latticeViews.emplace(*views, labels.octree().lattice);
-  }
   Phase contouring(execution, 0.4, 1.0);
   makeSurface(labels, survivors, covering, place, added, latticeViews ? &*latticeViews : nullptr, options, surface, contouring);
   return !labels.field() || !options.fillCavities ||

@@ -40,9 +40,11 @@ struct Candidate
 class Covering
 {
 public:
-  Covering(LatticeLabels& labels, int loop)
+  Covering(LatticeLabels& labels, int loop, const CornerDepth* depth)
     : Labels(labels)
     , Loop(loop)
+    , Depth(depth)
+    , Support(depth ? std::vector<float>(labels.shell().corners.size(), Unknown) : labels.support())
     , Solid(connectRegions(labels, true))
   {
   }
@@ -66,6 +68,16 @@ private:
   {
     const auto& corners = this->shell().cellCorners[cell];
     return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return this->inside(c); });
+  }
+
+  float support(std::uint32_t corner)
+  {
+    float& known = this->Support[corner];
+    if (this->Depth && known == Unknown)
+    {
+      known = float((*this->Depth)(fromMorton(this->shell().corners[corner])));
+    }
+    return known;
   }
 
   void findLost()
@@ -130,7 +142,7 @@ private:
     std::array<std::uint32_t, 8> cells;
     const int count = this->Labels.cellsAround(p, cells);
     candidate.corner = corner;
-    candidate.support = this->Labels.support()[corner];
+    candidate.support = this->support(corner);
     candidate.effect = this->effectOf(p);
     candidate.covers = int(
       std::count_if(cells.begin(), cells.begin() + count, [&](std::uint32_t cell) { return !this->covered(cell); }));
@@ -351,8 +363,12 @@ private:
     this->settle();
   }
 
+  static constexpr float Unknown = 1.0f; ///< no depth
+
   LatticeLabels& Labels;
   int Loop;
+  const CornerDepth* Depth;
+  std::vector<float> Support; ///< of each corner of the shell; by Depth, as far as it was asked for
   LatticeRegions Solid;
   std::vector<std::uint32_t> Lost;
   std::deque<std::uint32_t> Unsettled;
@@ -361,9 +377,10 @@ private:
 
 } // namespace
 
-CoveringResult coverSurvivors(LatticeLabels& labels, const std::vector<Bridge>& bridges, int loop)
+CoveringResult coverSurvivors(
+  LatticeLabels& labels, const std::vector<Bridge>& bridges, int loop, const CornerDepth* depth)
 {
-  return Covering(labels, loop).run(bridges);
+  return Covering(labels, loop, depth).run(bridges);
 }
 
 } // namespace silhouette

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CornerDepth.h"
+
+#include "Error.h"
+#include "SilhouetteDissent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace silhouette
+{
+namespace
+{
+
+/** Of a pixel's square from a coordinate, along one axis. */
+double away(int pixel, double coordinate)
+{
+  return std::max(std::abs(pixel - coordinate) - 0.5, 0.0);
+}
+
+/** Distance along a row of pixels to the nearest object, px; `most` where it is no less. */
+double nearestInRow(const PreparedView& view, double u, int row, double most)
+{
+  const int column = int(std::floor(u + 0.5));
+  const auto holds = [&](int steps) { return view.content(column - steps, column + steps, row, row).object; };
+  int within = int(std::ceil(most)), without = -1;
+  if (!holds(within))
+  {
+    return most;
+  }
+  while (within - without > 1)
+  {
+    const int middle = (within + without) / 2;
+    (holds(middle) ? within : without) = middle;
+  }
+  for (const int pixel : { column - within, column + within })
+  {
+    if (view.pixelVote(pixel, row) == Vote::Object)
+    {
+      most = std::min(most, away(pixel, u));
+    }
+  }
+  return most;
+}
+
+/** Distance from a place in the image to the nearest pixel square of the object, px; `most` where it is no less. */
+double nearestObject(const PreparedView& view, double u, double v, double most)
+{
+  const int first = std::clamp(int(std::floor(v + 0.5)), 0, view.height - 1);
+  double square = most * most;
+  bool any = true;
+  for (int steps = 0; any; ++steps)
+  {
+    any = false;
+    for (const int row : { first - steps, first + steps })
+    {
+      const double across = away(row, v);
+      if (row >= 0 && row < view.height && across * across < square)
+      {
+        any = true;
+        const double along = nearestInRow(view, u, row, std::sqrt(square - across * across));
+        square = std::min(square, along * along + across * across);
+      }
+    }
+  }
+  return std::sqrt(square);
+}
+
+} // namespace
+
+CornerDepth::CornerDepth(const LatticeViews& views, int backgroundVotes, double reach)
+  : Views(&views)
+  , BackgroundVotes(backgroundVotes)
+  , Reach(reach)
+{
+  if (backgroundVotes < 0 || backgroundVotes >= views.size())
+  {
+    throw InvalidInput("background votes " + std::to_string(backgroundVotes) + ": 0 to " + std::to_string(views.size() - 1) +
+      " are possible with " + std::to_string(views.size()) + " views");
+  }
+  if (!(reach > 0.0))
+  {
+    throw InvalidInput("reach " + std::to_string(reach) + " octants is not above 0");
+  }
+}
+
+double CornerDepth::operator()(const LatticePoint& p) const
+{
+  std::vector<double> outside;
+  for (int view = 0; view < this->Views->size(); ++view)
+  {
+    if (this->Views->vote(view, p) == Vote::Background)
+    {
+      outside.push_back(this->outsideView(view, p));
+    }
+  }
+  if (int(outside.size()) <= this->BackgroundVotes)
+  {
+    return 0.0;
+  }
+  std::nth_element(outside.begin(), outside.begin() + this->BackgroundVotes, outside.end(), std::greater<double>());
+  return -outside[std::size_t(this->BackgroundVotes)];
+}
+
+double CornerDepth::outsideView(int view, const LatticePoint& p) const
+{
+  const PreparedView& prepared = this->Views->view(view);
+  const LatticeProjection& projection = this->Views->projection(view);
+  const auto h = projection(p);
+  const double scale = pixelsPerOctant(projection, p);
+  // Far outside the image nothing is near: the whole reach.
+  const double u = std::clamp(h.U / h.W, -1e8, 1e8), v = std::clamp(h.V / h.W, -1e8, 1e8);
+  return std::min(this->Reach, nearestObject(prepared, u, v, std::min(this->Reach * scale, 1e8)) / scale);
+}
+
+} // namespace silhouette
