@@ -25,7 +25,8 @@ const std::vector<Promise>& promises();
 enum class Where
 {
   Clean,
-  Noisy
+  Noisy,
+  NoisyButPixels ///< flipped pixels leave islands, which the octree's promise keeps and voting drops
 };
 
 /** The error of one method is at most that of another times `factor`, and `allowance` octants. */

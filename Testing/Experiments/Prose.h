@@ -18,6 +18,7 @@ extern const char* const Times;
 extern const char* const Failures;
 extern const char* const Stages;
 extern const char* const Scaling;
+extern const char* const Islands;
 extern const char* const Votes;
 extern const char* const Generations;
 extern const char* const Hulls;

@@ -141,6 +141,10 @@ std::string pageOf(const Results& results, const std::filesystem::path& figures)
   {
     page += prose::Scaling + std::string("\n") + scalingTable(results.scaling);
   }
+  if (!results.islands.empty())
+  {
+    page += prose::Islands + ofEach(bySettings(results.islands), islandTable);
+  }
   if (!results.votes.empty())
   {
     page += prose::Votes + std::string("\n") + voteCountTable(results.votes);
@@ -154,7 +158,8 @@ std::string pageOf(const Results& results, const std::filesystem::path& figures)
 void writeReport(const std::filesystem::path& output, const std::filesystem::path& folder)
 {
   const Results results{readRows(resultsFile(output)), readRows(ablationFile(output)),
-                        readRows(scalingFile(output)), readVoteTables(votesFile(output))};
+                        readRows(scalingFile(output)), readRows(islandsFile(output)),
+                        readVoteTables(votesFile(output))};
   if (results.cases.empty())
   {
     throw InvalidInput("there are no results in " + output.string());

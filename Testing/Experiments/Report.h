@@ -20,6 +20,7 @@ struct Results
   std::vector<Row> cases; ///< of one settings or of several, each of which gets its own tables
   std::vector<Row> ablation;
   std::vector<Row> scaling;
+  std::vector<Row> islands;
   std::vector<VoteTable> votes;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables of the ablation and of the scaling.
+// The tables of the ablation, the scaling and the islands.
 #include "Markdown.h"
 #include "Methods.h"
 #include "Promises.h"
@@ -169,6 +169,27 @@ std::string ablationTable(const std::vector<Row>& rows)
       joined += (joined.empty() ? "" : ", ") + name;
     }
     text += some.empty() ? "" : (text.empty() ? "" : "\n") + tableOfKind(some, joined);
+  }
+  return text;
+}
+
+std::string islandTable(const std::vector<Row>& rows)
+{
+  std::string text = head({"object", "noise", "marching cubes, exact: error", "pieces", "local hulls, Robust: error",
+                           "pieces", "genus", "islands dropped: error", "pieces", "genus", "octants given up"});
+  for (const Row& row : rows)
+  {
+    const Row* whole = row.method == Strict ? find(rows, row, Whole) : nullptr;
+    const Row* dropped = row.method == Strict ? find(rows, row, "no-islands") : nullptr;
+    if (whole && dropped)
+    {
+      const auto number = [](const Row& of, Column column)
+      { return std::isnan(of.value[column]) ? std::string() : format("%.0f", of.value[column]); };
+      text += line({row.at.object, describeNoise(row.at.noise, row.at.strength), length(row.value[Error]),
+                    number(row, Pieces), length(whole->value[Error]), number(*whole, Pieces), number(*whole, Genus),
+                    length(dropped->value[Error]), number(*dropped, Pieces), number(*dropped, Genus),
+                    number(*dropped, Lost)});
+    }
   }
   return text;
 }

@@ -176,6 +176,11 @@ std::filesystem::path scalingFile(const std::filesystem::path& folder)
   return folder / "scaling.csv";
 }
 
+std::filesystem::path islandsFile(const std::filesystem::path& folder)
+{
+  return folder / "islands.csv";
+}
+
 void runStudy(const StudyOptions& options)
 {
   checkNames(options);
@@ -218,6 +223,16 @@ void runAblation(const StudyOptions& options)
     ablation.strengths = {"strong"};
   }
   runStudy(ablation);
+}
+
+void runIslands(const StudyOptions& options)
+{
+  StudyOptions islands = options;
+  islands.results = islandsFile("");
+  islands.seeds = {options.seeds.front()};
+  islands.noises = {"pixels"};
+  islands.methods = {"cubes-exact", "hulls-robust", "no-islands"};
+  runStudy(islands);
 }
 
 void runScaling(const StudyOptions& options)

@@ -17,6 +17,8 @@ std::filesystem::path votesFile(const std::filesystem::path& folder);
 /** The files of the rows of ablation and scaling. */
 std::filesystem::path ablationFile(const std::filesystem::path& folder);
 std::filesystem::path scalingFile(const std::filesystem::path& folder);
+/** The file of the rows of the islands. */
+std::filesystem::path islandsFile(const std::filesystem::path& folder);
 
 /**
  * Run what the options ask for and is not in the results yet, and say on the standard output what is done.
@@ -37,5 +39,11 @@ void runAblation(const StudyOptions& options);
  * two objects, their first seed. Errors as above.
  */
 void runScaling(const StudyOptions& options);
+
+/**
+ * Flipped pixels, with and without the islands that they leave, into islandsFile(): exact marching cubes, the robust local hulls, and
+ * these with small islands dropped, of the options' objects, their first seed. Errors as above.
+ */
+void runIslands(const StudyOptions& options);
 
 } // namespace silhouette::experiments

@@ -58,6 +58,8 @@ std::string timeTable(const std::vector<Row>& rows);
 std::string ablationTable(const std::vector<Row>& rows);
 /** The ratio of the local hulls' error to exact marching cubes', by depth and size of the images. */
 std::string scalingTable(const std::vector<Row>& rows);
+/** Flipped pixels: exact marching cubes and the local hulls, these with small islands kept and dropped. */
+std::string islandTable(const std::vector<Row>& rows);
 /** Runs without a surface and why; runs on thinned points. */
 std::string noteTable(const std::vector<Row>& rows);
 
