@@ -2,9 +2,12 @@
 """What each generation costs: carve and exact surface of a capture, by the Python classes, a process for each depth.
 
     growth.py CAPTURE [--key CHANNEL:EXCESS] [--depths 7-11] [--pieces N]
+    growth.py CAPTURE [--key CHANNEL:EXCESS] --depths 10 --ranks 1,2,4,8
 
-With --pieces the octree is made in pieces, one after another, and no surface is kept. The package vtksilhouette has to be on
-Python's path; memory is the operating system's account of the process.
+With --pieces the octree is made in pieces, one after another, and no surface is kept. With --ranks every piece of each of these
+numbers is made by a process of its own, as the ranks of an MPI run would, one after another so that they do not disturb each
+other: what the slowest takes is what the run would. The package vtksilhouette has to be on Python's path; memory is the operating
+system's account of the process.
 """
 import argparse
 import json
@@ -39,18 +42,20 @@ def count(data, name):
 def one(options):
     """One depth: seconds, octants, view tests, memory."""
     reader, extractor, octree, cubes = pipeline(options)
+    begin = time.process_time()
     extractor.Update()
     octree.SetDepth(6)
-    octree.Update()  # views prepared; threads and libraries awake
+    octree.UpdatePiece(0, options.pieces, 0)  # views prepared; threads and libraries awake
     octree.SetDepth(options.depth)
-    result = {"carve": 0.0, "surface": 0.0, "octants": 0, "view_tests": 0, "intersection": 0, "faces": 0}
-    for piece in range(options.pieces):
-        start = time.perf_counter()
+    result = {"views": time.process_time() - begin, "carve": 0.0, "surface": 0.0, "octants": 0, "view_tests": 0, "intersection": 0,
+              "faces": 0}
+    for piece in range(options.pieces) if options.piece is None else [options.piece]:
+        start = time.process_time()
         octree.UpdatePiece(piece, options.pieces, 0)
-        middle = time.perf_counter()
+        middle = time.process_time()
         cubes.UpdatePiece(piece, options.pieces, 0)
         result["carve"] += middle - start
-        result["surface"] += time.perf_counter() - middle
+        result["surface"] += time.process_time() - middle
         grid = octree.GetOutput()
         result["octants"] += count(grid, "OctantsTested")
         result["view_tests"] += count(grid, "ViewTests")
@@ -60,11 +65,32 @@ def one(options):
     print(json.dumps(result))
 
 
+def measure(*arguments):
+    """What one() says in a process of its own."""
+    command = [sys.executable, __file__, *sys.argv[1:], *map(str, arguments)]
+    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout.splitlines()[-1])
+
+
+def scaling(options):
+    """How evenly the pieces share the work, and what each rank repeats."""
+    depth = options.depths[0]
+    print("| ranks | slowest rank | mean rank | slowest to mean | all ranks | views, each rank | memory, most, MiB | "
+          "on the surface, least to most |\n| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
+    base = None
+    for ranks in options.ranks:
+        rows = [measure("--depth", depth, "--pieces", ranks, "--piece", piece) for piece in range(ranks)]
+        times = [row["carve"] + row["surface"] for row in rows]
+        base = base or sum(times)
+        mean = sum(times) / ranks
+        print("| %d | %.3g | %.3g | %.2f | %.3g | %.3g | %.0f | %s to %s |" % (
+            ranks, max(times) / base, mean / base, max(times) / mean, sum(times) / base,
+            sum(row["views"] for row in rows) / ranks / base, max(row["memory_mib"] for row in rows),
+            *(format(pick(row["intersection"] for row in rows), ",") for pick in (min, max))), flush=True)
+    print("\nDepth %d; processor times as multiples of carve and surface by the first number of ranks (%.3g s)." % (depth, base))
+
+
 def table(options):
-    rows = {}
-    for depth in options.depths:
-        rows[depth] = json.loads(subprocess.run([sys.executable, __file__, *sys.argv[1:], "--depth", str(depth)], check=True,
-                                                stdout=subprocess.PIPE).stdout.splitlines()[-1])
+    rows = {depth: measure("--depth", depth) for depth in options.depths}
     print("| depth | octants tested | view tests | on the surface | faces | carve | surface | time, of the depth before | "
           "memory, MiB |\n| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
     first = rows[options.depths[0]]
@@ -90,9 +116,11 @@ def main():
     parser.add_argument("--key")
     parser.add_argument("--depths", type=depths_of, default=list(range(7, 12)))
     parser.add_argument("--pieces", type=int, default=1)
+    parser.add_argument("--ranks", type=lambda text: [int(n) for n in text.split(",")])
     parser.add_argument("--depth", type=int, help=argparse.SUPPRESS)
+    parser.add_argument("--piece", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args()
-    one(options) if options.depth else table(options)
+    one(options) if options.depth else scaling(options) if options.ranks else table(options)
 
 
 if __name__ == "__main__":
