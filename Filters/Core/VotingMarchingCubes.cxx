@@ -6,9 +6,11 @@
 #include "EdgeCrossing.h"
 #include "FirstTouch.h"
 #include "LatticeSurface.h"
+#include "SubPixelCrossing.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace silhouette
 {
@@ -110,17 +112,21 @@ VotingSurface votingMarchingCubes(
   surface.mesh.triangles = std::move(contoured.triangles);
   resizeSideBySide(surface.mesh.points, contoured.edges.size(), execution);
   resizeSideBySide(surface.insideVotes, contoured.edges.size(), execution);
-  Phase placing(execution, 0.6, 1.0);
+  std::optional<SubPixelCrossing> subPixel;
+  if (options.edges == EdgePlacement::SubPixel)
+  {
+    subPixel.emplace(latticeViews, execution);
+    execution.checkpoint(0.7);
+  }
+  Phase placing(execution, subPixel ? 0.7 : 0.6, 1.0);
   forEach(placing, contoured.edges.size(),
     [&](std::size_t e)
     {
       const CrossedEdge& edge = contoured.edges[e];
-      double t = 0.5;
-      if (options.edges == EdgePlacement::Exact)
-      {
-        t = exactCrossing(latticeViews, cellViews[edge.cell], fromMorton(shell.corners[edge.inside]),
-          fromMorton(shell.corners[edge.outside]), allowed);
-      }
+      const LatticePoint inside = fromMorton(shell.corners[edge.inside]), outside = fromMorton(shell.corners[edge.outside]);
+      const double t = subPixel               ? (*subPixel)(cellViews[edge.cell], inside, outside, allowed)
+        : options.edges == EdgePlacement::Exact ? exactCrossing(latticeViews, cellViews[edge.cell], inside, outside, allowed)
+                                                : 0.5;
       surface.mesh.points[e] = crossingPosition(
         octree.lattice, shell, edge, std::clamp(t, CrossingMargin, 1.0 - CrossingMargin));
       surface.insideVotes[e] = { votes[edge.inside], votes[edge.outside] };

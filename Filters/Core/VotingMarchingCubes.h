@@ -15,7 +15,8 @@ namespace silhouette
 enum class EdgePlacement : int
 {
   Middle = 0, ///< the middle of the lattice edge: the thesis
-  Exact = 1   ///< the first point along the edge, from its inside end, at which the votes fail
+  Exact = 1,  ///< the first point along the edge, from its inside end, at which the votes fail; pixels are squares
+  SubPixel = 2 ///< the same by distances between pixels: nearer to smooth contours (SubPixelCrossing.h)
 };
 
 enum class VotingMode : int

@@ -64,7 +64,8 @@ public:
   enum EdgePlacements
   {
     MIDDLE = 0, ///< in the middle
-    EXACT = 1   ///< at the first point, from the inside end, where the votes fail
+    EXACT = 1,  ///< at the first point, from the inside end, where the votes fail; pixels are squares
+    SUB_PIXEL = 2 ///< the same by distances between pixels: nearer to smooth contours
   };
 
   /** Which octree the share goes with. */
@@ -84,11 +85,15 @@ public:
   ///@}
 
   ///@{
-  /** Where vertices lie on their lattice edges: EXACT (default) or MIDDLE. */
-  vtkSetClampMacro(EdgePlacement, int, MIDDLE, EXACT);
+  /**
+   * Where vertices lie on their lattice edges: EXACT (default), MIDDLE or SUB_PIXEL. SUB_PIXEL takes each view's contour by its signed distances,
+   * bilinear between pixels, where EXACT follows the pixels' squares: less of the silhouettes is missed, for a distance map of each view.
+   */
+  vtkSetClampMacro(EdgePlacement, int, MIDDLE, SUB_PIXEL);
   vtkGetMacro(EdgePlacement, int);
   void SetEdgePlacementToMiddle() { this->SetEdgePlacement(MIDDLE); }
   void SetEdgePlacementToExact() { this->SetEdgePlacement(EXACT); }
+  void SetEdgePlacementToSubPixel() { this->SetEdgePlacement(SUB_PIXEL); }
   ///@}
 
   ///@{

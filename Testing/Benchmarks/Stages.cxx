@@ -114,9 +114,12 @@ vtkSmartPointer<vtkPolyData> polyData(const Mesh& mesh)
   return surface;
 }
 
-/** Ours: sums, carve, exact surface, and with `hulls` the local hull surface. */
-void runOurs(const Options& options, const std::vector<View>& views, bool hulls, Result& result)
+/** Ours: sums, carve, exact or sub-pixel surface, and with `hulls` the local hull surface. */
+void runOurs(const Options& options, const std::vector<View>& views, Result& result)
 {
+  const bool hulls = options.side == "hulls";
+  VotingOptions voting;
+  voting.edges = options.side == "subpixel" ? EdgePlacement::SubPixel : EdgePlacement::Exact;
   SmpExecution execution;
   PreparedViews prepared;
   Octree octree;
@@ -126,7 +129,7 @@ void runOurs(const Options& options, const std::vector<View>& views, bool hulls,
   timed("carve", options.repeats, result,
     [&] { octree = carve(LatticeViews(prepared, lattice), CarveOptions(), execution); });
   timed("surface", options.repeats, result,
-    [&] { surface = votingMarchingCubes(octree, prepared, VotingOptions(), execution); });
+    [&] { surface = votingMarchingCubes(octree, prepared, voting, execution); });
   result["octants_tested"] = octree.statistics.octantsTested;
   result["view_tests"] = octree.statistics.viewTests;
   result["intersection"] = octree.count(OctantState::Intersection, options.depth);
@@ -238,7 +241,7 @@ void run(const Options& options)
   result["cells"] = 1 << options.depth;
   result["threads"] = execution.threads();
   result["memory_before_mib"] = memoryMiB();
-  options.side == "dense" ? runDense(options, views, result) : runOurs(options, views, options.side == "hulls", result);
+  options.side == "dense" ? runDense(options, views, result) : runOurs(options, views, result);
   std::printf("%s\n", result.dump().c_str());
 }
 
@@ -248,9 +251,9 @@ int main(int argc, char** argv)
 {
   Options options;
   CLI::App program("One side of the comparison: its stages' times, memory and mesh", "silhouette-stages");
-  program.add_option("side", options.side, "ours, hulls (ours with local hulls) or dense")
+  program.add_option("side", options.side, "ours, subpixel (ours with sub-pixel edges), hulls (ours with local hulls) or dense")
     ->required()
-    ->check(CLI::IsMember({ "ours", "hulls", "dense" }));
+    ->check(CLI::IsMember({ "ours", "subpixel", "hulls", "dense" }));
   program.add_option("--shape", options.shape, "The solid")->capture_default_str();
   program.add_option("--depth", options.depth, "2^depth cells a side")->check(CLI::Range(3, 12))->capture_default_str();
   program.add_option("--views", options.views, "Views")->check(CLI::Range(2, 1000))->capture_default_str();

@@ -17,11 +17,11 @@ def compare(*options):
 
 class Compare(unittest.TestCase):
     def test_table(self):
-        done = compare("--cells", "32,64", "--sides", "ours,hulls,dense,numpy", "--largest", "numpy:32")
+        done = compare("--cells", "32,64", "--sides", "ours,subpixel,hulls,dense,numpy", "--largest", "numpy:32")
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in done.stdout.splitlines()
                 if line.startswith("| vtk") or line.startswith("| dense") or line.startswith("| numpy")]
-        self.assertEqual(len(rows), 7, done.stdout)
+        self.assertEqual(len(rows), 9, done.stdout)
         for row in rows:
             self.assertEqual(len(row), 7)
             ratio, processors, memory, xor, error = (float(row[i]) for i in (1, 2, 3, 5, 6))
@@ -29,10 +29,11 @@ class Compare(unittest.TestCase):
             self.assertGreater(int(row[4].replace(",", "")), 1000)
             self.assertLess(xor, 15.0, "per cent of the silhouettes")
             self.assertLess(error, 2.0, "cells")
-            if row[0].startswith("vtkSilhouette, octree"):
+            if row[0].endswith("exact surface"):
                 self.assertEqual(ratio, 1.0)
-        ours, dense = (next(float(row[5]) for row in rows[-3:] if row[0].startswith(name)) for name in ("vtkSilhouette, o", "dense"))
-        self.assertLess(abs(ours - dense), 0.5, "both are exact")
+        exact, sub_pixel, dense = (next(float(row[5]) for row in rows[-4:] if name in row[0]) for name in ("exact surf", "sub-pixel", "dense"))
+        self.assertLess(abs(exact - dense), 0.5, "both are exact")
+        self.assertLess(sub_pixel, exact)
 
     def test_wrong_arguments(self):
         for options, word in ((("--cells", "100"), "power of two"), (("--shape", "cube", "--cells", "32"), "cube")):

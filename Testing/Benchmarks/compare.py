@@ -13,7 +13,8 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-NAMES = {"ours": "vtkSilhouette, octree and exact surface", "hulls": "vtkSilhouette, with local hulls",
+NAMES = {"ours": "vtkSilhouette, octree and exact surface", "subpixel": "vtkSilhouette, octree and sub-pixel surface",
+         "hulls": "vtkSilhouette, with local hulls",
          "dense": "dense exact reference, vtkFlyingEdges3D", "numpy": "numpy script, vtkFlyingEdges3D",
          "open3d": "Open3D carve_silhouette, vtkFlyingEdges3D"}
 
@@ -89,7 +90,9 @@ def targets(rows, cells, options):
             say("our time, vtkFlyingEdges3D's alone being 1", seconds(ours) / dense["seconds"]["flying_edges"], 3)
         said.append("- vtkMarchingCubes' time alone, vtkFlyingEdges3D's being 1: %.3g" % (
             dense["seconds"]["marching_cubes"] / dense["seconds"]["flying_edges"]))
-        say("our XOR, the dense reference's being 1", ours["xor"] / dense["xor"], 1)
+        for side, name in (("ours", "exact"), ("subpixel", "sub-pixel")):
+            if side in rows:
+                say("our XOR, %s, the dense reference's being 1" % name, rows[side]["xor"] / dense["xor"], 1)
     if "hulls" in rows:
         def hulls(result):
             return result["seconds"]["local_hulls"] / result["seconds"]["surface"]
@@ -123,7 +126,7 @@ def parse():
     parser.add_argument("--views", type=int, default=36)
     parser.add_argument("--size", type=int, default=1024, help="pixels of an image's sides")
     parser.add_argument("--cells", default="128,256,512", help="cells a side, powers of two (default: 128,256,512)")
-    parser.add_argument("--sides", default="ours,hulls,dense,numpy,open3d", help="which sides run")
+    parser.add_argument("--sides", default="ours,subpixel,hulls,dense,numpy,open3d", help="which sides run")
     parser.add_argument("--largest", default="numpy:256,open3d:512", help="the most cells of a side")
     parser.add_argument("--threads", type=int, default=0, help="0: all processors")
     options = parser.parse_args()

@@ -89,7 +89,7 @@ TEST(VotingMarchingCubes, ConsistentIsClosedAndManifoldAtEveryShareUnderEveryNoi
     {
       VotingOptions options;
       options.share = (10.0 - k) / 10.0;
-      options.edges = k % 4 ? EdgePlacement::Middle : EdgePlacement::Exact;
+      options.edges = EdgePlacement(k % 3);
       try
       {
         const auto surface = surfaceOf(prepared, carveViews(prepared, unitCube(), 5, k), options);
@@ -132,49 +132,93 @@ TEST(VotingMarchingCubes, FaithfulOpensWhereTheShareFalls)
   }
 }
 
+TEST(VotingMarchingCubes, SubPixelPlacesAreNearerToACircleThanItsPixels)
+{
+  const double r = 0.9, scale = 50.0;
+  for (const int count : { 2, 3 })
+  {
+    const std::vector<View> cylinders = discs(r, scale, 121, count);
+    const PreparedViews views = prepareViews(cylinders);
+    const Octree octree = carveViews(views, unitCube(1.01), 5);
+    double errors[2], means[2];
+    std::vector<Triangle> triangles[2];
+    for (const int n : { 0, 1 })
+    {
+      VotingOptions options;
+      options.edges = n == 0 ? EdgePlacement::Exact : EdgePlacement::SubPixel;
+      const Mesh mesh = surfaceOf(views, octree, options).mesh;
+      triangles[n] = mesh.triangles;
+      double sum = 0.0, squares = 0.0;
+      for (const auto& p : mesh.points)
+      {
+        double radius = 0.0; // of the cylinder that the point is farthest out in
+        for (const View& view : cylinders)
+        {
+          const Vector3 h = view.projection * p.homogeneous();
+          radius = std::max(radius, std::hypot(h[0] / h[2] - 60.0, h[1] / h[2] - 60.0));
+        }
+        sum += radius - r * scale;
+        squares += (radius - r * scale) * (radius - r * scale);
+      }
+      means[n] = sum / double(mesh.points.size());
+      errors[n] = std::sqrt(squares / double(mesh.points.size()));
+    }
+    EXPECT_EQ(triangles[0], triangles[1]);
+    EXPECT_LT(errors[1], 0.75 * errors[0]) << count << " views: px, root of the mean square";
+    EXPECT_LT(std::abs(means[1]), std::abs(means[0]));
+  }
+}
+
 TEST(VotingMarchingCubes, TreesSurfacedApartAddUpToTheWhole)
 {
-  const PreparedViews prepared = prepareViews(viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(10, 120), 120));
-  const LatticeViews latticeViews(prepared, { unitCube(), 5 });
-  Execution execution;
-  const auto whole = surfaceOf(prepared, carve(latticeViews, CarveOptions(), execution));
-  std::vector<std::array<std::array<double, 3>, 3>> expected, found;
-  const auto append = [](const Mesh& mesh, auto& triangles)
+  for (const EdgePlacement placement : { EdgePlacement::Exact, EdgePlacement::SubPixel })
   {
-    for (const auto& t : mesh.triangles)
+    VotingOptions voting;
+    voting.edges = placement;
+    const PreparedViews prepared = prepareViews(viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(10, 120), 120));
+    const LatticeViews latticeViews(prepared, { unitCube(), 5 });
+    Execution execution;
+    const auto whole = surfaceOf(prepared, carve(latticeViews, CarveOptions(), execution), voting);
+    std::vector<std::array<std::array<double, 3>, 3>> expected, found;
+    const auto append = [](const Mesh& mesh, auto& triangles)
     {
-      std::array<std::array<double, 3>, 3> corners;
-      for (int c = 0; c < 3; ++c)
+      for (const auto& t : mesh.triangles)
       {
-        corners[c] = { mesh.points[t[c]].x(), mesh.points[t[c]].y(), mesh.points[t[c]].z() };
+        std::array<std::array<double, 3>, 3> corners;
+        for (int c = 0; c < 3; ++c)
+        {
+          corners[c] = { mesh.points[t[c]].x(), mesh.points[t[c]].y(), mesh.points[t[c]].z() };
+        }
+        triangles.push_back(corners);
       }
-      triangles.push_back(corners);
-    }
-  };
-  append(whole.mesh, expected);
-  for (std::uint64_t part = 0; part < 8; ++part)
-  {
-    CarveOptions options;
-    for (std::uint64_t tree = part * 64; tree < (part + 1) * 64; ++tree)
+    };
+    append(whole.mesh, expected);
+    for (std::uint64_t part = 0; part < 8; ++part)
     {
-      options.trees.push_back(tree);
+      CarveOptions options;
+      for (std::uint64_t tree = part * 64; tree < (part + 1) * 64; ++tree)
+      {
+        options.trees.push_back(tree);
+      }
+      append(surfaceOf(prepared, carve(latticeViews, options, execution), voting).mesh, found);
     }
-    append(surfaceOf(prepared, carve(latticeViews, options, execution)).mesh, found);
+    std::sort(expected.begin(), expected.end());
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(expected, found);
   }
-  std::sort(expected.begin(), expected.end());
-  std::sort(found.begin(), found.end());
-  EXPECT_EQ(expected, found);
 }
 
 TEST(VotingMarchingCubes, SameBytesForAnyNumberOfThreads)
 {
   const PreparedViews prepared = prepareViews(viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(10, 120), 120));
   const Octree octree = carveViews(prepared, unitCube(), 6);
-  const auto one = surfaceOf(prepared, octree);
-  for (const int threads : { 2, 8 })
+  for (const int n : { 2, 8, -2, -8 })
   {
-    ThreadedExecution execution(threads);
-    const auto many = votingMarchingCubes(octree, prepared, VotingOptions(), execution);
+    VotingOptions options;
+    options.edges = n > 0 ? EdgePlacement::Exact : EdgePlacement::SubPixel;
+    const auto one = surfaceOf(prepared, octree, options);
+    ThreadedExecution execution(std::abs(n));
+    const auto many = votingMarchingCubes(octree, prepared, options, execution);
     EXPECT_EQ(one.mesh.points, many.mesh.points);
     EXPECT_EQ(one.mesh.triangles, many.mesh.triangles);
     EXPECT_EQ(one.insideVotes, many.insideVotes);

@@ -129,6 +129,8 @@ TEST(VtkVotingMarchingCubes, IsAProperFilter)
   expectModifies(filter, [&] { filter->SetShare(0.5); });
   expectModifies(filter, [&] { filter->SetModeToFaithful(); });
   expectModifies(filter, [&] { filter->SetEdgePlacementToMiddle(); });
+  expectModifies(filter, [&] { filter->SetEdgePlacementToSubPixel(); });
+  EXPECT_NE(printed(filter).find("EdgePlacement: SubPixel"), std::string::npos);
   expectModifies(filter, [&] { filter->SetOutputPointsPrecision(0); });
   filter->SetShare(1.0);
   expectProgress(filter);

@@ -176,9 +176,10 @@ void Reconstruct::addSurface()
     ->group(group);
   this->App
     ->add_option("--edges", this->Options.edges, "Where marching cubes puts a vertex on its edge: exact, where the "
-                                                 "votes fail; middle")
+                                                 "votes fail, pixels being squares; sub-pixel, the same by distances "
+                                                 "between pixels, nearer to smooth contours; middle")
     ->type_name("PLACE")
-    ->check(CLI::IsMember({ "exact", "middle" }))
+    ->check(CLI::IsMember({ "exact", "sub-pixel", "middle" }))
     ->capture_default_str()
     ->group(group);
   this->App

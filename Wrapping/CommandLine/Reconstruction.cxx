@@ -141,8 +141,9 @@ void Reconstruction::setVotes()
   this->Octree->SetBackgroundVotes(background);
   this->Cubes->SetShare(this->Share);
   this->Cubes->SetMode(consistent ? vtkVotingMarchingCubes::CONSISTENT : vtkVotingMarchingCubes::FAITHFUL);
-  this->Cubes->SetEdgePlacement(
-    this->Options.edges == "exact" ? vtkVotingMarchingCubes::EXACT : vtkVotingMarchingCubes::MIDDLE);
+  this->Cubes->SetEdgePlacement(this->Options.edges == "exact" ? vtkVotingMarchingCubes::EXACT
+      : this->Options.edges == "sub-pixel"                     ? vtkVotingMarchingCubes::SUB_PIXEL
+                                                               : vtkVotingMarchingCubes::MIDDLE);
 }
 
 bool Reconstruction::carvesTolerantly() const

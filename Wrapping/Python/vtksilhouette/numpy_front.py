@@ -38,7 +38,8 @@ _OUTSIDE = {
     "background": vtkSilhouetteOctreeSource.BACKGROUND,
 }
 _MODES = {"robust": vtkLocalHullSurfacer.ROBUST, "thesis": vtkLocalHullSurfacer.THESIS}
-_EDGES = {"exact": vtkVotingMarchingCubes.EXACT, "middle": vtkVotingMarchingCubes.MIDDLE}
+_EDGES = {"exact": vtkVotingMarchingCubes.EXACT, "middle": vtkVotingMarchingCubes.MIDDLE,
+          "sub-pixel": vtkVotingMarchingCubes.SUB_PIXEL}
 
 
 @dataclass(frozen=True)
@@ -93,7 +94,8 @@ def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", 
                  silhouettes are outvoted, and the object grows. None: what `carving` settles
     outside      what a view says beyond its image: "border" (nothing beyond a side that the object touches,
                  else background), "unknown" or "background"
-    edges        where the surface crosses an edge of the grid: "exact", or in its "middle"
+    edges        where the surface crosses an edge of the grid: "exact", by the pixels' squares; "sub-pixel", by
+                 distances between pixels, nearer to smooth contours; or in its "middle"
     names        sequence of m names of the views, for messages; None numbers them
     carving      without vote_share: "tolerant" (default), the least share of votes, and at worst dilation of the
                  silhouettes, that brings back parts thinner than the noise where strict carving cuts them; or
