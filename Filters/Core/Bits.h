@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 namespace silhouette
 {
@@ -40,6 +41,14 @@ inline int highestBit(std::uint64_t bits)
   }
   return countBits(bits) - 1;
 #endif
+}
+
+/** Eight consecutive bytes, wherever they begin. */
+inline std::uint64_t wordAt(const std::uint8_t* bytes)
+{
+  std::uint64_t word;
+  std::memcpy(&word, bytes, sizeof word);
+  return word;
 }
 
 } // namespace silhouette

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DistanceMap.h"
 
+#include "Bits.h"
 #include "Vectorised.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace silhouette
 {
@@ -24,12 +26,18 @@ std::array<int, 4> objectBox(const std::uint8_t* object, int width, int height)
   {
     const std::uint8_t* first = object + std::size_t(row) * width;
     const std::uint8_t* last = first + width;
-    const std::uint8_t* from = std::find(first, last, std::uint8_t(1));
-    if (from == last)
+    const void* found = std::memchr(first, 1, std::size_t(width));
+    if (!found)
     {
       continue;
     }
-    while (last[-1] == 0)
+    const auto* from = static_cast<const std::uint8_t*>(found);
+    const std::uint8_t* sure = first + std::max(box[1], int(from - first)); // no column before it can be the greatest
+    while (last - sure > 8 && wordAt(last - 8) == 0)
+    {
+      last -= 8;
+    }
+    while (last > sure + 1 && last[-1] == 0)
     {
       --last;
     }
@@ -113,7 +121,16 @@ private:
     {
       const std::uint8_t* pixels = this->row(r);
       std::uint8_t* tiles = &this->Tiles[std::size_t(r / TileSize) * this->TileColumns];
-      for (int c = 0; c < this->Map.columns; ++c)
+      int c = 0;
+      for (; c + TileSize <= this->Map.columns; c += TileSize)
+      {
+        constexpr std::uint64_t ones = 0x0101010101010101ULL;
+        const std::uint64_t a = wordAt(pixels + c), b = wordAt(pixels + c + 8);
+        const std::uint8_t own = a != b ? 2 : a == 0 ? 0 : a == ones ? 1 : 2;
+        std::uint8_t& tile = tiles[c / TileSize];
+        tile = tile == 3 ? own : (tile == own ? tile : std::uint8_t(2));
+      }
+      for (; c < this->Map.columns; ++c)
       {
         std::uint8_t& tile = tiles[c / TileSize];
         tile = tile == 3 ? pixels[c] : (tile == pixels[c] ? tile : std::uint8_t(2));
@@ -225,9 +242,14 @@ private:
         this->fillRow(r, firstColumn, out + firstColumn);
         continue;
       }
+      if (far)
+      {
+        std::fill(out + firstColumn, out + lastColumn, value);
+        continue;
+      }
       for (int c = firstColumn; c < lastColumn; ++c)
       {
-        out[c] = far ? value : this->distanceAt(c, r);
+        out[c] = this->distanceAt(c, r);
       }
     }
   }
@@ -242,6 +264,20 @@ private:
   std::vector<float> Around;
 };
 
+/** Mark those of a row's whole blocks that have a value below the reach. */
+SILHOUETTE_VECTORISED void markNear(const float* values, int blocks, float reach, std::int32_t* near)
+{
+  for (int block = 0; block < blocks; ++block)
+  {
+    std::int32_t below = 0;
+    for (int c = 0; c < BlockSize; ++c)
+    {
+      below |= values[block * BlockSize + c] < reach ? 1 : 0;
+    }
+    near[block] |= below;
+  }
+}
+
 /** How many blocks are not wholly at the reach, summed over both directions. */
 void countBlocks(DistanceMap& map)
 {
@@ -252,10 +288,11 @@ void countBlocks(DistanceMap& map)
   {
     const float* values = &map.value[std::size_t(r) * map.columns];
     std::int32_t* near = &map.blocksNear[(std::size_t(r / BlockSize) + 1) * stride + 1];
-    for (int block = 0; block < across; ++block)
+    markNear(values, map.columns / BlockSize, map.reach, near);
+    if (map.columns % BlockSize != 0)
     {
-      const float* first = values + block * BlockSize;
-      near[block] |= *std::min_element(first, std::min(first + BlockSize, values + map.columns)) < map.reach;
+      near[across - 1] |=
+        *std::min_element(values + map.columns / BlockSize * BlockSize, values + map.columns) < map.reach;
     }
   }
   for (std::size_t n = stride + 1; n < map.blocksNear.size(); ++n)

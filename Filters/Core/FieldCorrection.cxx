@@ -16,6 +16,7 @@ namespace
 
 constexpr int BlockSize = 4;             ///< points a side of a block, in which views are asked or not
 constexpr std::size_t BlockPoints = 64;  ///< consecutive in Morton order
+constexpr double FinestShift = 0.1; ///< px: the contours of clean silhouettes seem shifted by up to two thirds of this
 constexpr double ThoughtOutAt = 128.0; ///< cells a side of the lattice that the largest lengths are stated for
 
 void check(const FieldCorrectionOptions& options)
@@ -55,22 +56,28 @@ std::vector<std::uint64_t> cellsOf(const Mesh& surface, const Lattice& lattice)
   return cells;
 }
 
-/** Octants: the mean length of the shifts of the views that say anything. */
-double typicalShift(
-  const std::vector<ContourResidual>& residuals, const std::vector<int>& views, const FieldViews& fieldViews)
+/** The mean length of the shifts of the views that say anything. */
+struct TypicalShift
 {
-  double sum = 0.0;
-  int count = 0;
-  for (std::size_t n = 0; n < views.size(); ++n)
+  double octants = 0.0;
+  double pixels = 0.0;
+
+  TypicalShift(const std::vector<ContourResidual>& residuals, const std::vector<int>& views, const FieldViews& fieldViews)
   {
-    if (residuals[n].count > 0)
+    int count = 0;
+    for (std::size_t n = 0; n < views.size(); ++n)
     {
-      sum += residuals[n].shift.norm() / fieldViews.pixelsPerOctant(views[n]);
-      ++count;
+      if (residuals[n].count > 0)
+      {
+        ++count;
+        this->pixels += residuals[n].shift.norm();
+        this->octants += residuals[n].shift.norm() / fieldViews.pixelsPerOctant(views[n]);
+      }
     }
+    this->pixels /= std::max(count, 1);
+    this->octants /= std::max(count, 1);
   }
-  return count > 0 ? sum / count : 0.0;
-}
+};
 
 class Correction
 {
@@ -305,9 +312,11 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
   Correction correction(surface, fieldViews, options);
   const auto residuals = contourResiduals(fieldViews, surface, some, correction.limit(), execution);
   result.deficit = std::max(0.0, typicalResidual(residuals));
-  result.shift = typicalShift(residuals, some, fieldViews);
+  const TypicalShift shift(residuals, some, fieldViews);
+  result.shift = shift.octants;
   execution.checkpoint(0.3);
-  if (result.deficit > options.smallestDeficit || result.shift > options.smallestShift)
+  if (result.deficit > options.smallestDeficit ||
+    (result.shift > options.smallestShift && shift.pixels > FinestShift))
   {
     Phase correcting(execution, 0.3, 1.0);
     correction.run(result, correcting);

@@ -23,7 +23,8 @@ struct FieldCorrectionOptions
   bool moveSurface = true; ///< correct the field for the noise's bias; without it the views' shifts alone count
   /** Octants, 0 or more: silhouettes whose deficit is at most this, and whose shift is small too, are taken as they are; larger corrects less. */
   double smallestDeficit = 0.035;
-  /** Octants, 0 or more: the same for the mean shift between the surface's contours and the silhouettes', which cameras' errors raise first. */
+  /** Octants, 0 or more: the same for the mean shift between the surface's contours and the silhouettes', which cameras' errors raise first. A shift
+   * of a tenth of a pixel or less is the pixels' own, and never counts. */
   double smallestShift = 0.025;
   int alignments = 2; ///< rounds of shifting, 1 or more; larger comes closer and costs in proportion
   /** Octants for each octant of deficit, 0 or more: standard deviation of the field's smoothing; larger is smoother. */

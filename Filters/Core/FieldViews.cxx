@@ -139,11 +139,16 @@ std::vector<BinaryImage> FieldViews::render(const Mesh& mesh, const std::vector<
     {
       for (std::size_t i = first; i < last; ++i)
       {
-        const PreparedView& view = (*this->Views)[views[i]];
-        images[i] = renderer.render(this->Projections[views[i]], view.width, view.height);
+        images[i] = this->render(renderer, views[i]);
       }
     });
   return images;
+}
+
+BinaryImage FieldViews::render(const OutlineRenderer& renderer, int view) const
+{
+  const PreparedView& seen = (*this->Views)[view];
+  return renderer.render(this->Projections[view], seen.width, seen.height);
 }
 
 std::vector<DistanceMap> FieldViews::distances(const std::vector<BinaryImage>& images, Execution& execution) const

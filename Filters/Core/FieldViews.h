@@ -13,6 +13,8 @@
 namespace silhouette
 {
 
+class OutlineRenderer;
+
 class FieldViews
 {
 public:
@@ -30,6 +32,8 @@ public:
 
   /** The silhouettes of a mesh, as the views (shifted) would see it: one image for each view asked for. */
   std::vector<BinaryImage> render(const Mesh& mesh, const std::vector<int>& views, Execution& execution) const;
+  /** The silhouette of a mesh as one view (shifted) would see it. */
+  BinaryImage render(const OutlineRenderer& renderer, int view) const;
   /** The distances of images of all views, in their order. */
   std::vector<DistanceMap> distances(const std::vector<BinaryImage>& images, Execution& execution) const;
 

@@ -82,6 +82,8 @@ public:
 
   /** Label of any lattice point. */
   bool insideAt(const LatticePoint& p) const;
+  /** Labels of `count` points in Morton order from `first` on: 1 inside, 0 outside. `count` is a power of eight that divides `first`. */
+  void insideOf(std::uint64_t first, std::size_t count, std::uint8_t* inside) const;
   /** Is a cell of the shell an intersection octant, and not a further cell? */
   bool isSurvivor(std::size_t cell) const { return this->Survivor[cell] != 0; }
   /** Numbers of the surviving cells of the shell around a lattice point, at most eight; returns how many. */
@@ -90,6 +92,7 @@ public:
 private:
   /** Label of a lattice point that is no corner of the shell. */
   bool unlabelled(const LatticePoint& p) const;
+  void fillUnlabelled(std::uint64_t first, std::size_t count, std::uint8_t* inside) const;
   void fromOctree();
   void spread(const SurfaceCrossings& crossings);
 

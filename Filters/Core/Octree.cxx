@@ -27,12 +27,16 @@ Octree::Location Octree::locate(const LatticePoint& cell) const
   const int depth = this->lattice.depth;
   const auto& roots = this->generations[this->treeGeneration];
   const std::uint64_t tree = leaf >> 3 * (depth - this->treeGeneration);
-  const auto found = std::lower_bound(roots.code.begin(), roots.code.end(), tree);
-  if (found == roots.code.end() || *found != tree)
+  std::size_t index = std::size_t(tree); // where all trees are there
+  if (roots.code.size() != std::size_t(1) << 3 * this->treeGeneration)
   {
-    return location;
+    const auto found = std::lower_bound(roots.code.begin(), roots.code.end(), tree);
+    if (found == roots.code.end() || *found != tree)
+    {
+      return location;
+    }
+    index = std::size_t(found - roots.code.begin());
   }
-  std::size_t index = std::size_t(found - roots.code.begin());
   for (int g = this->treeGeneration;; ++g)
   {
     const auto& generation = this->generations[g];

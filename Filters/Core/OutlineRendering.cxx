@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace silhouette
 {
@@ -70,6 +71,12 @@ public:
       std::int16_t count = 0;
       for (int column = 0; column < this->Width; ++column)
       {
+        std::uint64_t ahead[2];
+        while (column + 8 < this->Width && (std::memcpy(ahead, steps + column, 16), (ahead[0] | ahead[1]) == 0))
+        {
+          std::memset(pixels + column, count != 0, 8); // no outline here
+          column += 8;
+        }
         count = std::int16_t(count + steps[column]);
         pixels[column] = count != 0;
       }

@@ -23,8 +23,14 @@ enum Part : std::uint8_t
 {
   Solid,
   Narrow, ///< outside, not yet taken by the wide outside
-  Wide    ///< the wide outside and what it took
+  Wide,   ///< the wide outside
+  Taken   ///< was narrow, and was taken by the wide outside
 };
+
+bool isWide(Part part)
+{
+  return part >= Wide;
+}
 
 void check(const TunnelFillingOptions& options)
 {
@@ -75,7 +81,7 @@ public:
   std::size_t size() const { return this->Values.size(); }
   std::uint64_t code(std::size_t n) const { return this->Bricks.code(n); }
   Part operator[](std::size_t n) const { return Part(this->Values[n]); }
-  void take(std::size_t n) { this->Values[n] = Wide; }
+  void take(std::size_t n) { this->Values[n] = Taken; }
   std::ptrdiff_t find(const LatticePoint& p) const
   {
     return std::min({ p.i, p.j, p.k }) < 0 ? -1 : this->Bricks.find(mortonCode(p));
@@ -93,9 +99,12 @@ private:
     execution.forRanges(this->Bricks.bricks().size(), 8,
       [&](std::size_t first, std::size_t last)
       {
-        for (std::size_t n = first * BrickField::BrickPoints; n < last * BrickField::BrickPoints; ++n)
+        for (std::size_t brick = first; brick < last; ++brick)
         {
-          this->Values[n] = this->Labels.insideAt(fromMorton(this->Bricks.code(n))) ? Solid : Wide;
+          std::uint8_t* const values = &this->Values[brick * BrickField::BrickPoints];
+          this->Labels.insideOf(this->Bricks.code(brick * BrickField::BrickPoints), BrickField::BrickPoints, values);
+          std::transform(values, values + BrickField::BrickPoints, values,
+            [](std::uint8_t inside) { return std::uint8_t(inside != 0 ? Solid : Wide); });
         }
       });
   }
@@ -179,10 +188,8 @@ public:
   Growth(const LatticeLabels& labels, Parts& parts, int width)
     : Labels(labels)
     , Outside(parts)
-    , Regions(connectWideOutside(labels, width))
-    , Sets(parts.size() + Regions.sets.size())
+    , Width(width)
   {
-    this->joinWide(width);
     for (std::size_t n = 0; n < parts.size(); ++n)
     {
       if (parts[n] == Narrow)
@@ -243,14 +250,19 @@ public:
   }
 
 private:
-  /** Points of the wide outside are joined along lattice edges and through the background octants around them. */
-  void joinWide(int width)
+  /**
+   * Points of the wide outside are joined along lattice edges and through the background octants around them. This is done when first it is asked for,
+   * which on most objects is never.
+   */
+  void joinWide()
   {
     const Octree& octree = this->Labels.octree();
+    const LatticeRegions regions = connectWideOutside(this->Labels, this->Width);
+    this->Sets = UnionFind(this->Outside.size() + regions.sets.size());
     const std::uint32_t octants = std::uint32_t(this->Outside.size());
     for (std::uint32_t n = 0; n < octants; ++n)
     {
-      if (this->Outside[n] != Wide)
+      if (!isWide(this->Outside[n]))
       {
         continue;
       }
@@ -258,26 +270,31 @@ private:
       for (const int a : { 14, 16, 22 })
       {
         const std::ptrdiff_t other = this->Outside.find(neighbourOf(p, a));
-        if (other >= 0 && this->Outside[other] == Wide)
+        if (other >= 0 && isWide(this->Outside[other]))
         {
           this->Sets.unite(n, std::uint32_t(other));
         }
       }
+      if (this->Outside[n] == Taken)
+      {
+        continue;
+      }
       if (!octree.lattice.hasCell(p) || octree.lattice.onBorder(p))
       {
-        this->Sets.unite(n, octants + this->Regions.beyond);
+        this->Sets.unite(n, octants + regions.beyond);
         continue;
       }
       const auto location = octree.locate(p);
       if (location.generation >= 0 && location.state == OctantState::Background &&
-        octree.lattice.cells() >> location.generation >= width)
+        octree.lattice.cells() >> location.generation >= this->Width)
       {
-        this->Sets.unite(n, octants + std::uint32_t(this->Regions.firstOctant[location.generation] + location.index));
+        this->Sets.unite(n, octants + std::uint32_t(regions.firstOctant[location.generation] + location.index));
       }
     }
-    for (std::uint32_t r = 0; r < this->Regions.sets.size(); ++r)
+    UnionFind sets = regions.sets;
+    for (std::uint32_t r = 0; r < sets.size(); ++r)
     {
-      this->Sets.unite(octants + r, octants + this->Regions.sets.find(r));
+      this->Sets.unite(octants + r, octants + sets.find(r));
     }
   }
 
@@ -296,18 +313,22 @@ private:
     Neighbourhood labels;
     for (int a = 0; a < 27; ++a)
     {
-      labels[a] = a != 13 && this->Outside.at(neighbourOf(p, a)) != Wide;
+      labels[a] = a != 13 && !isWide(this->Outside.at(neighbourOf(p, a)));
     }
     const int touching = topologicalNumbers(labels).outside;
     if (touching <= 1)
     {
       return touching == 1;
     }
+    if (this->Sets.size() == 0)
+    {
+      this->joinWide();
+    }
     std::vector<std::uint32_t> roots;
     for (const int a : Adjacent)
     {
       const std::ptrdiff_t other = this->Outside.find(neighbourOf(p, a));
-      if (other >= 0 && this->Outside[other] == Wide)
+      if (other >= 0 && isWide(this->Outside[other]))
       {
         roots.push_back(this->Sets.find(std::uint32_t(other)));
       }
@@ -327,7 +348,7 @@ private:
       {
         this->push(std::size_t(other));
       }
-      else if (other >= 0 && this->Outside[other] == Wide && std::find(Adjacent, Adjacent + 6, a) != Adjacent + 6)
+      else if (this->Sets.size() > 0 && other >= 0 && isWide(this->Outside[other]) && std::find(Adjacent, Adjacent + 6, a) != Adjacent + 6)
       {
         this->Sets.unite(std::uint32_t(n), std::uint32_t(other));
       }
@@ -336,8 +357,8 @@ private:
 
   const LatticeLabels& Labels;
   Parts& Outside;
-  LatticeRegions Regions;
-  UnionFind Sets; ///< of the wide outside's points, then the octants
+  int Width;
+  UnionFind Sets; ///< of the wide outside's points, then the octants; empty until it is asked for
   std::vector<std::size_t> Remaining;
   /** Least support first, then the first in lattice order. */
   std::priority_queue<std::tuple<float, std::ptrdiff_t, std::size_t>> Front;

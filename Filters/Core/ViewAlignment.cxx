@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewAlignment.h"
 
+#include "Bits.h"
+#include "OutlineRendering.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -117,6 +120,12 @@ ContourResidual compare(const BinaryImage& image, const DistanceMap& map, double
     const std::uint8_t* below = row + 1 < image.height ? pixels + image.width : pixels;
     for (int column = 0; column < image.width; ++column)
     {
+      // Most of an image is far from contours: eight pixels, their right neighbours and those below are one word each.
+      while (column + 8 < image.width && wordAt(pixels + column) == wordAt(pixels + column + 1) &&
+        wordAt(pixels + column) == wordAt(below + column))
+      {
+        column += 8;
+      }
       if (column + 1 < image.width && pixels[column] != pixels[column + 1])
       {
         fit.add(column + 0.5, row, limit);
@@ -135,7 +144,7 @@ ContourResidual compare(const BinaryImage& image, const DistanceMap& map, double
 std::vector<ContourResidual> contourResiduals(
   const FieldViews& fieldViews, const Mesh& surface, const std::vector<int>& views, double limit, Execution& execution)
 {
-  const std::vector<BinaryImage> images = fieldViews.render(surface, views, execution);
+  const OutlineRenderer renderer(surface);
   std::vector<ContourResidual> residuals(views.size());
   execution.forRanges(views.size(), 1,
     [&](std::size_t first, std::size_t last)
@@ -143,7 +152,9 @@ std::vector<ContourResidual> contourResiduals(
       for (std::size_t i = first; i < last; ++i)
       {
         const double scale = fieldViews.pixelsPerOctant(views[i]);
-        residuals[i] = compare(images[i], fieldViews.observed(views[i]), limit * scale, scale);
+        // One image at a time: its memory serves the next.
+        const BinaryImage image = fieldViews.render(renderer, views[i]);
+        residuals[i] = compare(image, fieldViews.observed(views[i]), limit * scale, scale);
       }
     });
   return residuals;
