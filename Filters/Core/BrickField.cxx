@@ -45,16 +45,15 @@ BrickField::BrickField(const Lattice& lattice, const std::vector<std::uint64_t>&
   : TheLattice(lattice)
 {
   const int greatest = lattice.cells() / BrickSize;
-  std::uint64_t before = ~std::uint64_t(0);
+  std::array<int, 6> before{ -1, -1, -1, -1, -1, -1 };
   for (const std::uint64_t cell : cells)
   {
     const LatticePoint p = fromMorton(cell);
     const auto low = [&](int x) { return std::max(x - margin, 0) / BrickSize; };
     const auto high = [&](int x) { return std::min((x + 1 + margin) / BrickSize, greatest); };
     // Neighbouring cells mostly ask for the same bricks.
-    const std::uint64_t asked = mortonCode({ low(p.i) * 2 + (low(p.i) < high(p.i)), low(p.j) * 2 + (low(p.j) < high(p.j)),
-      low(p.k) * 2 + (low(p.k) < high(p.k)) });
-    if (asked == before && margin < BrickSize / 2)
+    const std::array<int, 6> asked{ low(p.i), low(p.j), low(p.k), high(p.i), high(p.j), high(p.k) };
+    if (asked == before)
     {
       continue;
     }
