@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""growth.py: a row for each depth and for each number of ranks, and pieces that add up; no time is asserted."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def rows(folder, *options):
+    done = subprocess.run([sys.executable, str(HERE / "growth.py"), folder, *options], check=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, universal_newlines=True)
+    table = [[cell.strip() for cell in line.split("|")[1:-1]] for line in done.stdout.splitlines() if line.startswith("| ")]
+    return table[2:]  # without the head
+
+
+def number(text):
+    return int(text.replace(",", ""))
+
+
+class Growth(unittest.TestCase):
+    def test_depths_pieces_and_ranks(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = os.path.join(temporary, "capture")
+            subprocess.run([os.environ["SILHOUETTE_PROGRAM"], "synthesize", folder, "--views", "8", "--size", "128x128", "-q"],
+                           check=True)
+            whole = rows(folder, "--depths", "4-5")
+            self.assertEqual([row[0] for row in whole], ["4", "5"])
+            self.assertGreater(number(whole[1][4]), 3 * number(whole[0][4]))
+            self.assertGreater(float(whole[1][7]), 0.0)
+            pieces = rows(folder, "--depths", "5", "--pieces", "3")
+            self.assertEqual(pieces[0][3:5], whole[1][3:5], "leaves on the surface and faces")
+            ranks = rows(folder, "--depths", "5", "--ranks", "1,2")
+            self.assertEqual([row[0] for row in ranks], ["1", "2"])
+            least, most = ranks[0][7].split(" to ")
+            self.assertEqual(least, most)
+            self.assertEqual(least, whole[1][3])
+            self.assertEqual(sum(map(number, ranks[1][7].split(" to "))), number(least), "two ranks share what one has")
+            self.assertGreaterEqual(float(ranks[1][3]), 1.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
