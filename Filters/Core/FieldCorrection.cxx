@@ -62,7 +62,8 @@ struct TypicalShift
   double octants = 0.0;
   double pixels = 0.0;
 
-  TypicalShift(const std::vector<ContourResidual>& residuals, const std::vector<int>& views, const FieldViews& fieldViews)
+  TypicalShift(
+    const std::vector<ContourResidual>& residuals, const std::vector<int>& views, const FieldViews& fieldViews)
   {
     int count = 0;
     for (std::size_t n = 0; n < views.size(); ++n)
@@ -197,7 +198,8 @@ private:
   /** From the least distance to the model, and from the model to where the views agree. */
   void move(double deficit, Execution& execution)
   {
-    const double sigma = std::min(this->Options.greatestSmoothing * this->Proportion, this->Options.smoothing * deficit);
+    const double sigma =
+      std::min(this->Options.greatestSmoothing * this->Proportion, this->Options.smoothing * deficit);
     BrickField model = this->Least;
     for (std::size_t n = 0; n < model.size(); ++n)
     {

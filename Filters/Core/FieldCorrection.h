@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The corrected field (Documentation/method.md, section 4). The least of many noisy distances is too small; so the surface is moved to where the
- * views whose contours pass a point agree on average, after shifting the views against each other's camera errors.
+ * The corrected field (Documentation/method.md, section 4). The least of many noisy distances is too small; so
+ * the surface is moved to where the views whose contours pass a point agree on average, after shifting the
+ * views against each other's camera errors.
  *
- * With g_i(x) the signed distance of a point in view i's observed silhouette and d_i(x) that in the silhouette of a model,
- * the field is min_i d_i + sum_i w_i (g_i - d_i) / sum_i w_i with w_i = exp(-(d_i - min d)^2 / 2 h^2). A model whose silhouettes are the observed ones is left
- * as it is, whatever its shape; and parts that no silhouette shows come from min_i d_i. The model is the second-least g_i, no further than twice the deficit outside of the least, smoothed.
+ * With g_i(x) the signed distance of a point in view i's observed silhouette and d_i(x) that in the silhouette
+ * of a model, the field is min_i d_i + sum_i w_i (g_i - d_i) / sum_i w_i with w_i = exp(-(d_i - min d)^2 / 2
+ * h^2). A model whose silhouettes are the observed ones is left as it is, whatever its shape; and parts that no
+ * silhouette shows come from min_i d_i. The model is the second-least g_i, no further than twice the deficit
+ * outside of the least, smoothed.
  */
 #pragma once
 
@@ -21,19 +24,33 @@ struct FieldCorrectionOptions
 {
   bool alignViews = true; ///< shift views against the camera's error, as far as the contours show it
   bool moveSurface = true; ///< correct the field for the noise's bias; without it the views' shifts alone count
-  /** Octants, 0 or more: silhouettes whose deficit is at most this, and whose shift is small too, are taken as they are; larger corrects less. */
+  /**
+   * Octants, 0 or more: silhouettes whose deficit is at most this, and whose shift is small too, are taken as
+   * they are; larger corrects less.
+   */
   double smallestDeficit = 0.035;
-  /** Octants, 0 or more: the same for the mean shift between the surface's contours and the silhouettes', which cameras' errors raise first. A shift
-   * of a tenth of a pixel or less is the pixels' own, and never counts. */
+  /**
+   * Octants, 0 or more: the same for the mean shift between the surface's contours and the silhouettes', which
+   * cameras' errors raise first. A shift of a tenth of a pixel or less is the pixels' own, and never counts.
+   */
   double smallestShift = 0.025;
   int alignments = 2; ///< rounds of shifting, 1 or more; larger comes closer and costs in proportion
-  /** Octants for each octant of deficit, 0 or more: standard deviation of the field's smoothing; larger is smoother. */
+  /**
+   * Octants for each octant of deficit, 0 or more: standard deviation of the field's smoothing; larger is
+   * smoother.
+   */
   double smoothing = 5.0;
   /** Octants at depth 7, in proportion to 2^depth, 0 or more: the largest standard deviation of the smoothing. */
   double greatestSmoothing = 2.0;
-  /** Octants for each octant of deficit, 0 or more: the most that smoothing changes a value, so that thin parts stay; larger smooths more. */
+  /**
+   * Octants for each octant of deficit, 0 or more: the most that smoothing changes a value, so that thin parts
+   * stay; larger smooths more.
+   */
   double gentleness = 0.7;
-  /** Octants at depth 7, in proportion to 2^depth, above 0: h, how far from a view's contour it is heard; larger averages more views. */
+  /**
+   * Octants at depth 7, in proportion to 2^depth, above 0: h, how far from a view's contour it is heard; larger
+   * averages more views.
+   */
   double contourReach = 0.6;
 };
 
@@ -48,8 +65,9 @@ struct FieldCorrection
 };
 
 /**
- * Correct `surface`, marching cubes' of the views. Throws InvalidInput for an option out of range, Cancelled. Cost: the deficit
- * renders every third view; a correction renders every view three times or more and looks up each one's distance at the points of a band.
+ * Correct `surface`, marching cubes' of the views. Throws InvalidInput for an option out of range, Cancelled.
+ * Cost: the deficit renders every third view; a correction renders every view three times or more and looks up
+ * each one's distance at the points of a band.
  */
 FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const PreparedViews& views,
   const FieldCorrectionOptions& options, Execution& execution);

@@ -285,7 +285,8 @@ void LatticeLabels::insideOf(std::uint64_t first, std::size_t count, std::uint8_
   this->fillUnlabelled(first, count, inside);
   for (auto corner = from; corner != to; ++corner)
   {
-    inside[*corner - first] = this->Inside[std::size_t(corner - corners)] && !this->TheOctree->lattice.onBorder(fromMorton(*corner));
+    const bool onBorder = this->TheOctree->lattice.onBorder(fromMorton(*corner));
+    inside[*corner - first] = this->Inside[std::size_t(corner - corners)] && !onBorder;
   }
 }
 

@@ -56,8 +56,8 @@ public:
   LatticeLabels(const Octree& octree, CornerShell shell, const SurfaceCrossings& crossings);
 
   /**
-   * Labels by a field, inside where it is positive; by the octree where the field has no values. The shell has to hold every cell with
-   * corners of both signs and those of which field and octree tell different things.
+   * Labels by a field, inside where it is positive; by the octree where the field has no values. The shell has
+   * to hold every cell with corners of both signs and those of which field and octree tell different things.
    */
   LatticeLabels(const Octree& octree, CornerShell shell, const BrickField& field);
 
@@ -68,7 +68,10 @@ public:
   const BrickField* field() const { return this->Field; }
   const CornerShell& shell() const { return this->Shell; }
   const std::vector<std::uint8_t>& inside() const { return this->Inside; }
-  /** How much speaks for the shell's corners being inside: the field, else their inside votes; all 0 where there are neither. */
+  /**
+   * How much speaks for the shell's corners being inside: the field, else their inside votes; all 0 where there
+   * are neither.
+   */
   const std::vector<float>& support() const { return this->Support; }
 
   /** Label a corner of the shell inside. */
@@ -77,12 +80,18 @@ public:
   /** Label a background octant's corners inside, as part of a filled cavity. */
   void fillOctant(int generation, std::size_t index);
 
-  /** Take a shell that holds all cells of this one; labels, survivors and support stay, further corners get the labels they have. */
+  /**
+   * Take a shell that holds all cells of this one; labels, survivors and support stay, further corners get the
+   * labels they have.
+   */
   void widen(CornerShell shell);
 
   /** Label of any lattice point. */
   bool insideAt(const LatticePoint& p) const;
-  /** Labels of `count` points in Morton order from `first` on: 1 inside, 0 outside. `count` is a power of eight that divides `first`. */
+  /**
+   * Labels of `count` points in Morton order from `first` on: 1 inside, 0 outside. `count` is a power of eight
+   * that divides `first`.
+   */
   void insideOf(std::uint64_t first, std::size_t count, std::uint8_t* inside) const;
   /** Is a cell of the shell an intersection octant, and not a further cell? */
   bool isSurvivor(std::size_t cell) const { return this->Survivor[cell] != 0; }

@@ -20,11 +20,12 @@ struct CoveringResult
 };
 
 /**
- * Corners that change no topology (simple ones) come first, then those that join components, then those that found one,
- * and only where none of these is left any other; among equals the corner that is least far outside the silhouettes by `depth`, where that is
- * not null, or that has most of the labels' support, then the one that covers most octants, then the first in lattice order. The bridges' points, all of them corners of the
- * shell, are labelled inside at the end; those of a bridge whose ends meet within `loop` steps through the solid are not. Cost: linear
- * in the lost octants, and for each bridge the corners within `loop` steps.
+ * Corners that change no topology (simple ones) come first, then those that join components, then those that
+ * found one, and only where none of these is left any other; among equals the corner that is least far outside
+ * the silhouettes by `depth`, where that is not null, or that has most of the labels' support, then the one
+ * that covers most octants, then the first in lattice order. The bridges' points, all of them corners of the
+ * shell, are labelled inside at the end; those of a bridge whose ends meet within `loop` steps through the
+ * solid are not. Cost: linear in the lost octants, and for each bridge the corners within `loop` steps.
  */
 CoveringResult coverSurvivors(
   LatticeLabels& labels, const std::vector<Bridge>& bridges, int loop, const CornerDepth* depth = nullptr);

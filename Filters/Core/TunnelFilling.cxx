@@ -109,7 +109,10 @@ private:
       });
   }
 
-  /** Where no cube of outside points fits, the outside is narrow. Beyond the bricks everything is taken for outside. */
+  /**
+   * Where no cube of outside points fits, the outside is narrow. Beyond the bricks everything is taken for
+   * outside.
+   */
   void openByCubes(int width, Execution& execution)
   {
     std::vector<std::uint8_t> fits(this->Values.size());
@@ -251,8 +254,8 @@ public:
 
 private:
   /**
-   * Points of the wide outside are joined along lattice edges and through the background octants around them. This is done when first it is asked for,
-   * which on most objects is never.
+   * Points of the wide outside are joined along lattice edges and through the background octants around them.
+   * This is done when first it is asked for, which on most objects is never.
    */
   void joinWide()
   {
@@ -348,7 +351,8 @@ private:
       {
         this->push(std::size_t(other));
       }
-      else if (this->Sets.size() > 0 && other >= 0 && isWide(this->Outside[other]) && std::find(Adjacent, Adjacent + 6, a) != Adjacent + 6)
+      else if (this->Sets.size() > 0 && other >= 0 && isWide(this->Outside[other]) &&
+        std::find(Adjacent, Adjacent + 6, a) != Adjacent + 6)
       {
         this->Sets.unite(std::uint32_t(n), std::uint32_t(other));
       }
@@ -383,7 +387,10 @@ int eulerRise(const std::vector<std::size_t>& wall, const Parts& parts)
   return rise;
 }
 
-/** Octants along the outline of a wall: that of a rectangle with the two longest sides of its box, and the solid around it. */
+/**
+ * Octants along the outline of a wall: that of a rectangle with the two longest sides of its box, and the solid
+ * around it.
+ */
 double outline(const std::vector<std::size_t>& wall, const Parts& parts)
 {
   LatticePoint low = fromMorton(parts.code(wall.front())), high = low;

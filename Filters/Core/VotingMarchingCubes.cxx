@@ -123,9 +123,11 @@ VotingSurface votingMarchingCubes(
     [&](std::size_t e)
     {
       const CrossedEdge& edge = contoured.edges[e];
-      const LatticePoint inside = fromMorton(shell.corners[edge.inside]), outside = fromMorton(shell.corners[edge.outside]);
-      const double t = subPixel               ? (*subPixel)(cellViews[edge.cell], inside, outside, allowed)
-        : options.edges == EdgePlacement::Exact ? exactCrossing(latticeViews, cellViews[edge.cell], inside, outside, allowed)
+      const ViewsToAsk ask = cellViews[edge.cell];
+      const LatticePoint inside = fromMorton(shell.corners[edge.inside]);
+      const LatticePoint outside = fromMorton(shell.corners[edge.outside]);
+      const double t = subPixel               ? (*subPixel)(ask, inside, outside, allowed)
+        : options.edges == EdgePlacement::Exact ? exactCrossing(latticeViews, ask, inside, outside, allowed)
                                                 : 0.5;
       surface.mesh.points[e] = crossingPosition(
         octree.lattice, shell, edge, std::clamp(t, CrossingMargin, 1.0 - CrossingMargin));

@@ -88,7 +88,8 @@ void vtkVotingMarchingCubes::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Share: " << this->Share << "\n";
-  os << indent << "EdgePlacement: " << (this->EdgePlacement == EXACT ? "Exact" : this->EdgePlacement == MIDDLE ? "Middle" : "SubPixel") << "\n";
+  const char* const places[] = {"Middle", "Exact", "SubPixel"};
+  os << indent << "EdgePlacement: " << places[this->EdgePlacement] << "\n";
   os << indent << "Mode: " << (this->Mode == CONSISTENT ? "Consistent" : "Faithful") << "\n";
   os << indent << "GenerateNormals: " << (this->GenerateNormals ? "On" : "Off") << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";

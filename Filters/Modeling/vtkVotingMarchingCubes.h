@@ -86,8 +86,9 @@ public:
 
   ///@{
   /**
-   * Where vertices lie on their lattice edges: EXACT (default), MIDDLE or SUB_PIXEL. SUB_PIXEL takes each view's contour by its signed distances,
-   * bilinear between pixels, where EXACT follows the pixels' squares: less of the silhouettes is missed, for a distance map of each view.
+   * Where vertices lie on their lattice edges: EXACT (default), MIDDLE or SUB_PIXEL. SUB_PIXEL takes each
+   * view's contour by its signed distances, bilinear between pixels, where EXACT follows the pixels' squares:
+   * less of the silhouettes is missed, for a distance map of each view.
    */
   vtkSetClampMacro(EdgePlacement, int, MIDDLE, SUB_PIXEL);
   vtkGetMacro(EdgePlacement, int);

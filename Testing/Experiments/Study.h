@@ -28,8 +28,8 @@ std::filesystem::path islandsFile(const std::filesystem::path& folder);
 void runStudy(const StudyOptions& options);
 
 /**
- * The robust local hulls without each of their stages, into ablationFile(): of the options' cases, their first seed;
- * unless they say otherwise of four objects, clean and under the strongest noise. Errors as above.
+ * The robust local hulls without each of their stages, into ablationFile(): of the options' cases, their first
+ * seed; unless they say otherwise of four objects, clean and under the strongest noise. Errors as above.
  */
 void runAblation(const StudyOptions& options);
 
@@ -41,8 +41,9 @@ void runAblation(const StudyOptions& options);
 void runScaling(const StudyOptions& options);
 
 /**
- * Flipped pixels, with and without the islands that they leave, into islandsFile(): exact marching cubes, the robust local hulls, and
- * these with small islands dropped, of the options' objects, their first seed. Errors as above.
+ * Flipped pixels, with and without the islands that they leave, into islandsFile(): exact marching cubes, the
+ * robust local hulls, and these with small islands dropped, of the options' objects, their first seed. Errors
+ * as above.
  */
 void runIslands(const StudyOptions& options);
 
