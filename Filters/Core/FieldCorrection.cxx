@@ -317,8 +317,10 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
   const TypicalShift shift(residuals, some, fieldViews);
   result.shift = shift.octants;
   execution.checkpoint(0.3);
+  // A surface that some views may dissent from has no deficit: its contours differ from the silhouettes' by design.
   if (result.deficit > options.smallestDeficit ||
-    (result.shift > options.smallestShift && shift.pixels > FinestShift))
+    (2.0 * result.deficit > options.smallestDeficit && result.shift > options.smallestShift &&
+      shift.pixels > FinestShift))
   {
     Phase correcting(execution, 0.3, 1.0);
     correction.run(result, correcting);

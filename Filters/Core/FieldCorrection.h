@@ -31,7 +31,8 @@ struct FieldCorrectionOptions
   double smallestDeficit = 0.035;
   /**
    * Octants, 0 or more: the same for the mean shift between the surface's contours and the silhouettes', which
-   * cameras' errors raise first. A shift of a tenth of a pixel or less is the pixels' own, and never counts.
+   * cameras' errors raise first. It counts from half the smallest deficit on; a shift of a tenth of a pixel or less
+   * is the pixels' own, and never does.
    */
   double smallestShift = 0.025;
   int alignments = 2; ///< rounds of shifting, 1 or more; larger comes closer and costs in proportion

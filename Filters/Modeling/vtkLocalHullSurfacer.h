@@ -276,8 +276,8 @@ public:
   /**
    * CorrectField: silhouettes whose contours are shifted against the surface's by at most this, the mean over
    * the views, and whose deficit is small too, are taken as they are; leaf octants, at least 0, default 0.025.
-   * Cameras' errors raise the shift before they raise the deficit; a tenth of a pixel or less is the pixels'
-   * own, and never counts. Larger corrects less.
+   * Cameras' errors raise the shift before they raise the deficit. It counts from half of SmallestDeficit on; a
+   * tenth of a pixel or less is the pixels' own, and never does. Larger corrects less.
    */
   vtkSetMacro(SmallestShift, double);
   vtkGetMacro(SmallestShift, double);

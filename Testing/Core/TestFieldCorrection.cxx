@@ -297,13 +297,30 @@ TEST(FieldCorrection, EachPartDoesWhatItSaysAlone)
 
   options = {};
   for (const auto& [deficit, shift, corrects] :
-    { std::tuple(1.001, 1.001, false), std::tuple(0.999, 1.001, true), std::tuple(1.001, 0.999, true) })
+    { std::tuple(1.001, 1.001, false), std::tuple(0.999, 1.001, true), std::tuple(1.001, 0.999, true),
+      std::tuple(2.002, 0.999, false) })
   {
     options.smallestDeficit = deficit * both.deficit;
     options.smallestShift = shift * both.shift;
     EXPECT_EQ(noisy.correct(options, execution).field.has_value(), corrects) << deficit << " " << shift;
   }
   EXPECT_FALSE(correctField(Mesh(), noisy.lattice, noisy.views, {}, execution).field);
+}
+
+TEST(FieldCorrection, ASurfaceThatViewsMayDissentFromIsNotPulledBack)
+{
+  Execution execution;
+  Capture& capture = captureOf(SyntheticShape::Torus);
+  capture.draw(0.5, 0, 1);
+  const Corrected strict(capture);
+  EXPECT_TRUE(strict.correction.field);
+  VotingOptions voting;
+  voting.share = 1.0 - 3.0 / strict.views.size();
+  const Octree octree = carveViews(strict.views, unitCube(1.05), Depth, 3);
+  const Mesh tolerant = votingMarchingCubes(octree, strict.views, voting, execution).mesh;
+  const FieldCorrection correction = correctField(tolerant, octree.lattice, strict.views, {}, execution);
+  EXPECT_GT(correction.shift, FieldCorrectionOptions().smallestShift);
+  EXPECT_FALSE(correction.field) << correction.deficit;
 }
 
 TEST(FieldCorrection, TheLatticesBorderStaysOutside)
