@@ -2,6 +2,7 @@
 #include "FieldCorrection.h"
 
 #include "Error.h"
+#include "HullBase.h"
 #include "ViewAlignment.h"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ void check(const FieldCorrectionOptions& options)
   require(options.greatestSmoothing >= 0.0, "greatest smoothing", options.greatestSmoothing);
   require(options.gentleness >= 0.0, "gentleness", options.gentleness);
   require(options.contourReach > 0.0, "contour reach", options.contourReach);
+  require(options.hullConvexity >= 0.0, "hull convexity", options.hullConvexity);
 }
 
 std::vector<std::uint64_t> cellsOf(const Mesh& surface, const Lattice& lattice)
@@ -207,6 +209,7 @@ private:
     }
     smoothGently(model, sigma, deficit * this->Options.gentleness, execution);
     execution.checkpoint(0.75);
+    applyHullBase(model, this->Options.hullConvexity, 3.0 * this->Scale, execution);
     const auto maps = this->Views.distances(this->Views.render(model.contourMesh(execution), this->All, execution), execution);
     execution.checkpoint(0.85);
     const float reach = float(this->Options.contourReach * this->Proportion);

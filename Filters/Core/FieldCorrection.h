@@ -8,7 +8,7 @@
  * of a model, the field is min_i d_i + sum_i w_i (g_i - d_i) / sum_i w_i with w_i = exp(-(d_i - min d)^2 / 2
  * h^2). A model whose silhouettes are the observed ones is left as it is, whatever its shape; and parts that no
  * silhouette shows come from min_i d_i. The model is the second-least g_i, no further than twice the deficit
- * outside of the least, smoothed.
+ * outside of the least, smoothed; where it is near-convex, its hull.
  */
 #pragma once
 
@@ -53,6 +53,10 @@ struct FieldCorrectionOptions
    * averages more views.
    */
   double contourReach = 0.6;
+  /**
+   * Share of its convex hull, 0 or more: a model that fills more of it is given the hull for its base (HullBase.h); 1 or more gives none.
+   */
+  double hullConvexity = 0.97;
 };
 
 /** A field, and what was found on the way. */

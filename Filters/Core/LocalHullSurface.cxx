@@ -40,6 +40,7 @@ void check(const Octree& octree, const PreparedViews* views, const LocalHullOpti
   {
     throw InvalidInput("bridge gap " + std::to_string(options.bridgeGap) + " octants: at least 0 is needed");
   }
+  checkThinHullOptions(options.thin); // whether anything is thin or not
 }
 
 std::vector<std::uint64_t> codesOf(const CornerShell& shell, const std::vector<std::uint32_t>& corners)

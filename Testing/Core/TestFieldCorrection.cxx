@@ -363,7 +363,8 @@ TEST(FieldCorrection, OptionsOutOfRangeAreErrorsThatNameTheValue)
       EXPECT_NE(std::string(error.what()).find(value), std::string::npos) << error.what();
     }
   };
-  for (const auto member : { &Options::smallestDeficit, &Options::smallestShift, &Options::smoothing, &Options::greatestSmoothing,
+  for (const auto member : { &Options::smallestDeficit, &Options::smallestShift, &Options::hullConvexity,
+         &Options::smoothing, &Options::greatestSmoothing,
          &Options::gentleness, &Options::contourReach })
   {
     Options options;

@@ -142,6 +142,8 @@ const Stage Stages[] = {
      [](LocalHullOptions& o) { o.correction.alignViews = false; }},
     {"no-correction", "without the corrected field",
      [](LocalHullOptions& o) { o.correction.moveSurface = false; }},
+    {"no-hull-base", "without the hull as base of a near-convex field",
+     [](LocalHullOptions& o) { o.correction.hullConvexity = 1.0; }},
     {"no-noise-stages", "without all three: labels by votes, covered",
      [](LocalHullOptions& o)
      { o.repairSilhouettes = o.correction.alignViews = o.correction.moveSurface = false; }},

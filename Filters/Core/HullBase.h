@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The hull as the base of a near-convex surface's field (Documentation/method.md, section 4; after the thesis, which builds surfaces
+ * from the convex hulls of their convexities): under noise a convex hull carries the shape where smoothing would round it.
+ */
+#pragma once
+
+#include "BrickField.h"
+
+namespace silhouette
+{
+
+struct HullBase
+{
+  bool applied = false;
+  /** The volume that the field's surface encloses as a share of its convex hull's, 0 to 1; 0 where there is no surface or no hull. */
+  double convexity = 0.0;
+};
+
+/**
+ * Where the convexity of the surface on which `field` is 0 exceeds `leastConvexity`, replace the field's values of at most `band`
+ * octants by the distance in octants from the convex hull of that surface, positive inside, less the median by which the two
+ * differ within half an octant of the surface: the hull of a noisy surface lies too far outside. A `leastConvexity` of 1 or more never does.
+ * Cost: a contour, a hull, and for each point of the band a look at each of the hull's facets.
+ */
+HullBase applyHullBase(BrickField& field, double leastConvexity, double band, Execution& execution);
+
+} // namespace silhouette
