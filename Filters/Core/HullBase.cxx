@@ -46,9 +46,39 @@ std::vector<Eigen::Vector4f> planesOf(const Mesh& hull, const Lattice& lattice)
   return planes;
 }
 
+Eigen::Vector4f toPoint(const LatticePoint& p)
+{
+  return { float(p.i), float(p.j), float(p.k), 1.0f };
+}
+
+/** Those of the planes that may be the farthest out for a point of a cube of `side` lattice points from `lowest` on. */
+void farthestFor(const std::vector<Eigen::Vector4f>& planes, const LatticePoint& lowest, int side,
+  std::vector<float>& values, std::vector<Eigen::Vector4f>& farthest)
+{
+  const float half = 0.5f * float(side - 1);
+  const Eigen::Vector4f centre = toPoint(lowest) + Eigen::Vector4f(half, half, half, 0.0f);
+  values.resize(planes.size());
+  float most = planes.front().dot(centre);
+  for (std::size_t n = 0; n < planes.size(); ++n)
+  {
+    values[n] = planes[n].dot(centre);
+    most = std::max(most, values[n]);
+  }
+  // From the centre to a point no plane's value changes by more than the way.
+  const float least = most - 2.0f * std::sqrt(3.0f) * half - 0.01f;
+  farthest.clear();
+  for (std::size_t n = 0; n < planes.size(); ++n)
+  {
+    if (values[n] >= least)
+    {
+      farthest.push_back(planes[n]);
+    }
+  }
+}
+
 float depthInHull(const std::vector<Eigen::Vector4f>& planes, const LatticePoint& p)
 {
-  const Eigen::Vector4f point(float(p.i), float(p.j), float(p.k), 1.0f);
+  const Eigen::Vector4f point = toPoint(p);
   float farthest = planes.front().dot(point);
   for (const Eigen::Vector4f& plane : planes)
   {
@@ -56,6 +86,60 @@ float depthInHull(const std::vector<Eigen::Vector4f>& planes, const LatticePoint
   }
   return -farthest;
 }
+
+constexpr std::size_t BlockPoints = 64; ///< consecutive in Morton order, 4 x 4 x 4
+constexpr std::size_t CellPoints = 8;   ///< likewise, 2 x 2 x 2
+
+/** Depths of those points of a block of the field that lie within `band` of its surface; others are left as they are. */
+class BlockDepths
+{
+public:
+  BlockDepths(const BrickField& field, const std::vector<Eigen::Vector4f>& planes, double band)
+    : Field(field)
+    , Planes(planes)
+    , Band(float(band))
+  {
+  }
+
+  bool isNear(std::size_t n) const { return std::abs(this->Field.values()[n]) <= this->Band; }
+
+  void fill(std::size_t block, std::vector<float>& depth)
+  {
+    if (!this->anyNear(block, BlockPoints))
+    {
+      return;
+    }
+    farthestFor(this->Planes, fromMorton(this->Field.code(block)), 4, this->Values, this->OfBlock);
+    for (std::size_t cell = block; cell < block + BlockPoints; cell += CellPoints)
+    {
+      if (this->anyNear(cell, CellPoints))
+      {
+        farthestFor(this->OfBlock, fromMorton(this->Field.code(cell)), 2, this->Values, this->OfCell);
+        for (std::size_t n = cell; n < cell + CellPoints; ++n)
+        {
+          depth[n] = this->isNear(n) ? depthInHull(this->OfCell, fromMorton(this->Field.code(n))) : depth[n];
+        }
+      }
+    }
+  }
+
+private:
+  bool anyNear(std::size_t first, std::size_t count) const
+  {
+    bool any = false;
+    for (std::size_t n = first; n < first + count; ++n)
+    {
+      any = any || this->isNear(n);
+    }
+    return any;
+  }
+
+  const BrickField& Field;
+  const std::vector<Eigen::Vector4f>& Planes;
+  float Band;
+  std::vector<float> Values;
+  std::vector<Eigen::Vector4f> OfBlock, OfCell;
+};
 
 /** By how much `hull` exceeds the field beside the surface, the median. */
 float typicalExcess(const BrickField& field, const std::vector<float>& hull)
@@ -96,22 +180,19 @@ HullBase applyHullBase(BrickField& field, double leastConvexity, double band, Ex
     return base;
   }
   std::vector<float> depth(field.values());
-  const auto isNear = [&](std::size_t n) { return std::abs(field.values()[n]) <= float(band); };
-  execution.forRanges(depth.size(), 4096,
+  execution.forRanges(depth.size() / BlockPoints, 64,
     [&](std::size_t first, std::size_t last)
     {
-      for (std::size_t n = first; n < last; ++n)
+      BlockDepths depths(field, planes, band);
+      for (std::size_t block = first; block < last; ++block)
       {
-        if (isNear(n))
-        {
-          depth[n] = depthInHull(planes, fromMorton(field.code(n)));
-        }
+        depths.fill(block * BlockPoints, depth);
       }
     });
   const float excess = typicalExcess(field, depth);
   for (std::size_t n = 0; n < depth.size(); ++n)
   {
-    if (isNear(n))
+    if (std::abs(field.values()[n]) <= float(band))
     {
       field.values()[n] = depth[n] - excess;
     }

@@ -21,7 +21,7 @@ struct HullBase
  * Where the convexity of the surface on which `field` is 0 exceeds `leastConvexity`, replace the field's values of at most `band`
  * octants by the distance in octants from the convex hull of that surface, positive inside, less the median by which the two
  * differ within half an octant of the surface: the hull of a noisy surface lies too far outside. A `leastConvexity` of 1 or more never does.
- * Cost: a contour, a hull, and for each point of the band a look at each of the hull's facets.
+ * Cost: a contour, a hull, and for each 64 points of the band a look at each of the hull's facets.
  */
 HullBase applyHullBase(BrickField& field, double leastConvexity, double band, Execution& execution);
 
