@@ -77,6 +77,8 @@ private:
   bool Failed = true;
 };
 
+} // namespace
+
 double signedVolume(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles)
 {
   double volume = 0.0;
@@ -87,8 +89,6 @@ double signedVolume(const std::vector<Eigen::Vector3d>& points, const std::vecto
   }
   return volume;
 }
-
-} // namespace
 
 std::optional<Mesh> convexHull(const std::vector<Eigen::Vector3d>& points)
 {

@@ -18,4 +18,10 @@ namespace silhouette
  */
 std::optional<Mesh> convexHull(const std::vector<Eigen::Vector3d>& points);
 
+/**
+ * The volume that closed triangles enclose, in the points' unit cubed: negative where they are oriented inwards, 0 where there
+ * are none.
+ */
+double signedVolume(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles);
+
 } // namespace silhouette

@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr int TileSize = 16;
+static_assert(TileSize == 16, "classifyTiles() reads a tile's row as two words");
 constexpr int BlockSize = 8;
 constexpr int LongestFloat = 2000; ///< px: distances up to here have squares that float sums exactly
 

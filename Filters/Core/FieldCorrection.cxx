@@ -2,7 +2,6 @@
 #include "FieldCorrection.h"
 
 #include "Error.h"
-#include "HullBase.h"
 #include "ViewAlignment.h"
 
 #include <algorithm>
@@ -123,7 +122,7 @@ public:
     execution.checkpoint(0.65);
     if (this->Options.moveSurface)
     {
-      this->move(result.remainingDeficit, execution);
+      this->move(result, execution);
     }
     result.field = std::move(this->Least);
   }
@@ -198,8 +197,9 @@ private:
   }
 
   /** From the least distance to the model, and from the model to where the views agree. */
-  void move(double deficit, Execution& execution)
+  void move(FieldCorrection& result, Execution& execution)
   {
+    const double deficit = result.remainingDeficit;
     const double sigma =
       std::min(this->Options.greatestSmoothing * this->Proportion, this->Options.smoothing * deficit);
     BrickField model = this->Least;
@@ -209,7 +209,7 @@ private:
     }
     smoothGently(model, sigma, deficit * this->Options.gentleness, execution);
     execution.checkpoint(0.75);
-    applyHullBase(model, this->Options.hullConvexity, 3.0 * this->Scale, execution);
+    result.hull = applyHullBase(model, this->Options.hullConvexity, 3.0 * this->Scale, execution);
     const auto maps = this->Views.distances(this->Views.render(model.contourMesh(execution), this->All, execution), execution);
     execution.checkpoint(0.85);
     const float reach = float(this->Options.contourReach * this->Proportion);

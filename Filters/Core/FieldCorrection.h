@@ -13,6 +13,7 @@
 #pragma once
 
 #include "BrickField.h"
+#include "HullBase.h"
 #include "PreparedViews.h"
 
 #include <optional>
@@ -54,7 +55,8 @@ struct FieldCorrectionOptions
    */
   double contourReach = 0.6;
   /**
-   * Share of its convex hull, 0 or more: a model that fills more of it is given the hull for its base (HullBase.h); 1 or more gives none.
+   * Share of its convex hull, 0 or more: a model that fills more of it is given the hull for its base
+   * (applyHullBase()); 1 or more gives none.
    */
   double hullConvexity = 0.97;
 };
@@ -67,6 +69,7 @@ struct FieldCorrection
   double shift = 0.0;              ///< octants: how far they are shifted against the surface's, the mean over the views
   double remainingDeficit = 0.0;   ///< the same after the views were shifted
   double alignment = 0.0;          ///< px: the mean length of the views' shifts
+  HullBase hull;                   ///< of the model that the views are compared with
 };
 
 /**

@@ -16,17 +16,6 @@ namespace
 
 constexpr float Beside = 0.5f; ///< octants from the surface within which the median is taken
 
-double enclosedVolume(const Mesh& mesh)
-{
-  double sum = 0.0;
-  for (const Triangle& t : mesh.triangles)
-  {
-    const Eigen::Vector3d& o = mesh.points.front();
-    sum += (mesh.points[t[0]] - o).dot((mesh.points[t[1]] - o).cross(mesh.points[t[2]] - o));
-  }
-  return sum / 6.0;
-}
-
 /** The planes of a hull's facets in lattice coordinates, positive outside; facets without an area have none. */
 std::vector<Eigen::Vector4f> planesOf(const Mesh& hull, const Lattice& lattice)
 {
@@ -173,7 +162,7 @@ HullBase applyHullBase(BrickField& field, double leastConvexity, double band, Ex
   {
     return base;
   }
-  base.convexity = std::clamp(enclosedVolume(surface) / enclosedVolume(hull), 0.0, 1.0);
+  base.convexity = std::clamp(signedVolume(surface.points, surface.triangles) / signedVolume(hull.points, hull.triangles), 0.0, 1.0);
   base.applied = base.convexity > leastConvexity;
   if (!base.applied)
   {

@@ -25,8 +25,7 @@ SubPixelCrossing::SubPixelCrossing(const LatticeViews& views, Execution& executi
 double SubPixelCrossing::operator()(
   const ViewsToAsk& ask, const LatticePoint& inside, const LatticePoint& outside, int backgroundVotes) const
 {
-  thread_local std::vector<double> kept; // so that its memory is
-  std::vector<double>& falls = kept;
+  thread_local std::vector<double> falls; // its memory is kept
   falls.clear();
   ask.forEach(
     [&](int view)

@@ -44,7 +44,7 @@ public:
     : Labels(labels)
     , Loop(loop)
     , Depth(depth)
-    , Support(depth ? std::vector<float>(labels.shell().corners.size(), Unknown) : labels.support())
+    , Known(depth ? labels.shell().corners.size() : 0, Unknown)
     , Solid(connectRegions(labels, true))
   {
   }
@@ -72,8 +72,12 @@ private:
 
   float support(std::uint32_t corner)
   {
-    float& known = this->Support[corner];
-    if (this->Depth && known == Unknown)
+    if (!this->Depth)
+    {
+      return this->Labels.support()[corner];
+    }
+    float& known = this->Known[corner];
+    if (known == Unknown)
     {
       known = float((*this->Depth)(fromMorton(this->shell().corners[corner])));
     }
@@ -368,7 +372,7 @@ private:
   LatticeLabels& Labels;
   int Loop;
   const CornerDepth* Depth;
-  std::vector<float> Support; ///< of each corner of the shell; by Depth, as far as it was asked for
+  std::vector<float> Known; ///< by Depth, of each corner of the shell that it was asked for
   LatticeRegions Solid;
   std::vector<std::uint32_t> Lost;
   std::deque<std::uint32_t> Unsettled;

@@ -260,7 +260,7 @@ private:
   void joinWide()
   {
     const Octree& octree = this->Labels.octree();
-    const LatticeRegions regions = connectWideOutside(this->Labels, this->Width);
+    LatticeRegions regions = connectWideOutside(this->Labels, this->Width);
     this->Sets = UnionFind(this->Outside.size() + regions.sets.size());
     const std::uint32_t octants = std::uint32_t(this->Outside.size());
     for (std::uint32_t n = 0; n < octants; ++n)
@@ -294,10 +294,9 @@ private:
         this->Sets.unite(n, octants + std::uint32_t(regions.firstOctant[location.generation] + location.index));
       }
     }
-    UnionFind sets = regions.sets;
-    for (std::uint32_t r = 0; r < sets.size(); ++r)
+    for (std::uint32_t r = 0; r < regions.sets.size(); ++r)
     {
-      this->Sets.unite(octants + r, octants + sets.find(r));
+      this->Sets.unite(octants + r, octants + regions.sets.find(r));
     }
   }
 

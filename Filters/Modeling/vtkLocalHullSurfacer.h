@@ -265,20 +265,13 @@ public:
 
   ///@{
   /**
-   * CorrectField: silhouettes whose deficit is at most this, and whose contours' mean shift is small too, are
-   * taken as they are; leaf octants, at least 0, default 0.035. Larger corrects less.
+   * CorrectField: silhouettes whose deficit (default 0.035) and whose contours' mean shift against the surface's
+   * (default 0.025) are at most this are taken as they are; leaf octants, at least 0. Cameras' errors raise the
+   * shift before the deficit: it counts from half of SmallestDeficit on, and if it is more than a tenth of a
+   * pixel. Larger corrects less.
    */
   vtkSetMacro(SmallestDeficit, double);
   vtkGetMacro(SmallestDeficit, double);
-  ///@}
-
-  ///@{
-  /**
-   * CorrectField: silhouettes whose contours are shifted against the surface's by at most this, the mean over
-   * the views, and whose deficit is small too, are taken as they are; leaf octants, at least 0, default 0.025.
-   * Cameras' errors raise the shift before they raise the deficit. It counts from half of SmallestDeficit on; a
-   * tenth of a pixel or less is the pixels' own, and never does. Larger corrects less.
-   */
   vtkSetMacro(SmallestShift, double);
   vtkGetMacro(SmallestShift, double);
   ///@}
@@ -286,8 +279,7 @@ public:
   ///@{
   /**
    * CorrectField: a surface that fills more than this share of its convex hull gets the hull for the base of its
-   * field; at least 0, default 0.97, 1 or more for none. The synthesized convex solids fill 0.99 under noise, the
-   * others 0.85 and less.
+   * field; at least 0, default 0.97, 1 or more for none.
    */
   vtkSetMacro(HullConvexity, double);
   vtkGetMacro(HullConvexity, double);
@@ -321,9 +313,7 @@ public:
   ///@}
 
   ///@{
-  /**
-   * AlignViews: rounds of shifting, at least 1, default 2. Larger comes closer and costs in proportion.
-   */
+  /** AlignViews: rounds of shifting, at least 1, default 2. Larger comes closer and costs in proportion. */
   vtkSetMacro(Alignments, int);
   vtkGetMacro(Alignments, int);
   ///@}

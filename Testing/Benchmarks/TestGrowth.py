@@ -41,6 +41,13 @@ class Growth(unittest.TestCase):
             self.assertEqual(sum(map(number, ranks[1][7].split(" to "))), number(least), "two ranks share what one has")
             self.assertGreaterEqual(float(ranks[1][3]), 1.0)
 
+    def test_ranks_go_with_one_depth(self):
+        done = subprocess.run([sys.executable, str(HERE / "growth.py"), "none", "--depths", "5-6", "--ranks", "1,2"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("goes with one depth", done.stderr)
+        self.assertEqual(done.stdout, "")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -4,7 +4,7 @@
     growth.py CAPTURE [--key CHANNEL:EXCESS] [--depths 7-11] [--pieces N]
     growth.py CAPTURE [--key CHANNEL:EXCESS] --depths 10 --ranks 1,2,4,8
 
-With --pieces the octree is made in pieces, one after another, and no surface is kept. With --ranks every piece of each of these
+Views include a carve to depth 6. With --pieces the octree is made in pieces, one after another, and no surface is kept. With --ranks every piece of each of these
 numbers is made by a process of its own, as the ranks of an MPI run would, one after another so that they do not disturb each
 other: what the slowest takes is what the run would. The package vtksilhouette has to be on Python's path; memory is the operating
 system's account of the process.
@@ -120,6 +120,8 @@ def main():
     parser.add_argument("--depth", type=int, help=argparse.SUPPRESS)
     parser.add_argument("--piece", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args()
+    if options.ranks and len(options.depths) > 1:
+        parser.error("--ranks goes with one depth: --depths %d" % options.depths[-1])
     one(options) if options.depth else scaling(options) if options.ranks else table(options)
 
 

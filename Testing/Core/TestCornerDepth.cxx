@@ -2,7 +2,6 @@
 #include "CornerDepth.h"
 
 #include "CarvingTestCaptures.h"
-#include "SilhouetteDepth.h"
 #include "SilhouetteDissent.h"
 
 #include <gtest/gtest.h>

@@ -307,6 +307,31 @@ TEST(FieldCorrection, EachPartDoesWhatItSaysAlone)
   EXPECT_FALSE(correctField(Mesh(), noisy.lattice, noisy.views, {}, execution).field);
 }
 
+TEST(FieldCorrection, TheHullIsTheBaseOfNearConvexModelsAlone)
+{
+  Execution execution;
+  FieldCorrectionOptions without;
+  without.hullConvexity = 1.0;
+  Capture& sphere = captureOf(SyntheticShape::Sphere);
+  sphere.draw(1.2, 0, 1);
+  const Corrected convex(sphere), smoothed(sphere, without);
+  ASSERT_TRUE(convex.correction.field && smoothed.correction.field);
+  EXPECT_TRUE(convex.correction.hull.applied);
+  EXPECT_GT(convex.correction.hull.convexity, 0.98);
+  EXPECT_FALSE(smoothed.correction.hull.applied);
+  EXPECT_LT(errorOf(convex.correction.field->contourMesh(execution), sphere.cleanHull(), convex.lattice),
+    0.97 * errorOf(smoothed.correction.field->contourMesh(execution), sphere.cleanHull(), convex.lattice));
+
+  Capture& torus = captureOf(SyntheticShape::Torus);
+  torus.draw(1.2, 0, 1);
+  const Corrected concave(torus), same(torus, without);
+  ASSERT_TRUE(concave.correction.field);
+  EXPECT_FALSE(concave.correction.hull.applied);
+  EXPECT_GT(concave.correction.hull.convexity, 0.5);
+  EXPECT_LT(concave.correction.hull.convexity, 0.86);
+  EXPECT_EQ(concave.correction.field->values(), same.correction.field->values());
+}
+
 TEST(FieldCorrection, ASurfaceThatViewsMayDissentFromIsNotPulledBack)
 {
   Execution execution;

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 using namespace silhouette;
 using namespace silhouette::test;
 
@@ -75,6 +78,50 @@ TEST(LatticeLabels, OfAnyPointAgreeWithTheVotesWithinAndBeyondTheShell)
     const LatticePoint p{ n % 33, n / 33 % 33, n / 33 / 33 };
     const bool expected = !scene.octree.lattice.onBorder(p) && lattice.insideVotes(p) == scene.views.size();
     EXPECT_EQ(labels.insideAt(p), expected);
+  }
+}
+
+TEST(LatticeLabels, OfManyPointsAtOnceAreThoseOfEach)
+{
+  Scene scene(1);
+  LatticeLabels voted(scene.octree, scene.shell, scene.views, scene.execution);
+  for (int generation = 1; generation < 5; ++generation) // as if cavities had been filled
+  {
+    const Generation& octants = voted.octree().generations[generation];
+    for (std::size_t i = 0; i < octants.size(); i += 7)
+    {
+      if (octants.state[i] == OctantState::Background)
+      {
+        voted.fillOctant(generation, i);
+      }
+    }
+  }
+  BrickField field(scene.octree.lattice, { mortonCode({ 9, 17, 15 }), mortonCode({ 20, 3, 30 }) }, 5);
+  Random random(8);
+  for (float& value : field.values())
+  {
+    value = float(random.uniform(-1.0, 1.0));
+  }
+  const LatticeLabels byField(scene.octree, scene.shell, field);
+  for (const LatticeLabels* labels : { &std::as_const(voted), &byField })
+  {
+    for (const std::size_t count : { 1, 8, 64, 512 })
+    {
+      std::size_t inside = 0;
+      std::vector<std::uint8_t> values(count);
+      for (std::uint64_t first = 0; first < mortonCode({ 33, 33, 33 }); first += count)
+      {
+        labels->insideOf(first, count, values.data());
+        for (std::size_t n = 0; n < count; ++n)
+        {
+          const LatticePoint p = fromMorton(first + n);
+          const bool ofLattice = std::max({ p.i, p.j, p.k }) <= labels->octree().lattice.cells();
+          EXPECT_EQ(values[n], ofLattice && labels->insideAt(p)) << p.i << " " << p.j << " " << p.k << " of " << count;
+          inside += values[n];
+        }
+      }
+      EXPECT_GT(inside, 1000u);
+    }
   }
 }
 
