@@ -30,6 +30,78 @@ std::vector<float> gaussian(double sigma)
   return kernel;
 }
 
+/** For the points of a brick and those one beyond: where the field is positive, where not, where it has no value. */
+class BrickSigns
+{
+public:
+  explicit BrickSigns(const BrickField& field)
+    : Field(field)
+  {
+    for (std::size_t n = 0; n < BrickField::BrickPoints; ++n)
+    {
+      const LatticePoint p = fromMorton(n);
+      this->Place[n] = std::uint16_t(p.i + Row * (p.j + Row * p.k));
+    }
+  }
+
+  /** False where no cell has values of both signs. May say true where none does. */
+  bool read(std::size_t brick)
+  {
+    const LatticePoint b = fromMorton(this->Field.bricks()[brick]);
+    const float* own = &this->Field.values()[brick * BrickField::BrickPoints];
+    std::uint8_t any = 0;
+    for (std::size_t n = 0; n < BrickField::BrickPoints; ++n)
+    {
+      const std::uint8_t sign = own[n] > 0.0f ? Positive : Other;
+      this->Signs[this->Place[n]] = sign;
+      any |= sign;
+    }
+    for (int n = 1; n < 8; ++n)
+    {
+      const LatticePoint o = cornerOffset(n);
+      const std::ptrdiff_t other = this->Field.findBrick(mortonCode(b + o));
+      const float* values = other < 0 ? nullptr : &this->Field.values()[std::size_t(other) * BrickField::BrickPoints];
+      const int size = BrickField::BrickSize;
+      for (int k = o.k * size; k < size + o.k; ++k)
+      {
+        for (int j = o.j * size; j < size + o.j; ++j)
+        {
+          for (int i = o.i * size; i < size + o.i; ++i)
+          {
+            const std::uint8_t sign =
+              !values ? Missing : values[mortonCode({ i % size, j % size, k % size })] > 0.0f ? Positive : Other;
+            this->Signs[i + Row * (j + Row * k)] = sign;
+            any |= sign;
+          }
+        }
+      }
+    }
+    return (any & (Positive | Other)) == (Positive | Other);
+  }
+
+  /** Does the cell whose lowest corner is the n-th point have all values, of both signs? */
+  bool mixed(std::size_t n) const
+  {
+    const std::uint8_t* s = &this->Signs[this->Place[n]];
+    const int all = s[0] | s[1] | s[Row] | s[Row + 1] | s[Row * Row] | s[Row * Row + 1] | s[Row * Row + Row] |
+      s[Row * Row + Row + 1];
+    return all == (Positive | Other);
+  }
+
+private:
+  static constexpr int Row = BrickField::BrickSize + 1;
+  enum : std::uint8_t
+  {
+    Positive = 1,
+    Other = 2,
+    Missing = 4
+  };
+
+  const BrickField& Field;
+  std::array<std::uint16_t, BrickField::BrickPoints> Place;
+  std::array<std::uint8_t, Row * Row * Row> Signs;
+};
+
 std::size_t localIndex(int axis, int along, int a, int b)
 {
   LatticePoint p;
@@ -171,30 +243,17 @@ std::vector<std::uint64_t> BrickField::mixedCells(Execution& execution) const
   execution.forRanges(this->Bricks.size(), 16,
     [&](std::size_t first, std::size_t last)
     {
-      std::array<std::ptrdiff_t, 8> bricks;
+      BrickSigns signs(*this);
       for (std::size_t brick = first; brick < last; ++brick)
       {
-        const LatticePoint b = fromMorton(this->Bricks[brick]);
-        for (int n = 0; n < 8; ++n)
+        if (!signs.read(brick))
         {
-          bricks[n] = n == 0 ? std::ptrdiff_t(brick) : this->findBrick(mortonCode(b + cornerOffset(n)));
+          continue;
         }
         for (std::uint64_t local = 0; local < BrickPoints; ++local)
         {
-          const LatticePoint p = fromMorton(local);
-          int inside = 0, known = 0;
-          for (int n = 0; n < 8; ++n)
-          {
-            const LatticePoint q = p + cornerOffset(n);
-            const int over = (q.i >> 3) | (q.j >> 3) << 1 | (q.k >> 3) << 2;
-            if (bricks[over] >= 0)
-            {
-              ++known;
-              inside += this->Values[bricks[over] * BrickPoints + mortonCode({ q.i & 7, q.j & 7, q.k & 7 })] > 0.0f;
-            }
-          }
           const std::uint64_t cell = this->Bricks[brick] * BrickPoints + local;
-          if (known == 8 && inside > 0 && inside < 8 && this->TheLattice.hasCell(fromMorton(cell)))
+          if (signs.mixed(local) && this->TheLattice.hasCell(fromMorton(cell)))
           {
             found[brick].push_back(cell);
           }

@@ -86,25 +86,65 @@ SILHOUETTE_VECTORISED void stepColumns(
   }
 }
 
-class Transform
+/** Where the object and its surroundings are; nothing is kept where there is no object. */
+DistanceFrame frameOf(const std::uint8_t* object, int width, int height, double reach)
+{
+  DistanceFrame frame;
+  frame.width = width;
+  frame.height = height;
+  frame.reach = float(std::clamp(reach, 1.0, 30000.0));
+  const auto box = objectBox(object, width, height);
+  if (box[1] >= box[0])
+  {
+    const int margin = int(std::ceil(frame.reach)) + 1;
+    frame.left = std::max(box[0] - margin, 0);
+    frame.top = std::max(box[2] - margin, 0);
+    frame.columns = std::min(box[1] + margin, width - 1) - frame.left + 1;
+    frame.rows = std::min(box[3] + margin, height - 1) - frame.top + 1;
+  }
+  return frame;
+}
+
+} // namespace
+
+class DistanceTransform
 {
 public:
-  Transform(const std::uint8_t* object, DistanceMap& map)
+  DistanceTransform(const std::uint8_t* object, const DistanceFrame& frame)
     : Object(object)
-    , Map(map)
-    , Limit(int(std::ceil(map.reach)) + 1)
-    , TileColumns((map.columns + TileSize - 1) / TileSize)
-    , TileRows((map.rows + TileSize - 1) / TileSize)
+    , Map(frame)
+    , Limit(int(std::ceil(frame.reach)) + 1)
+    , TileColumns((frame.columns + TileSize - 1) / TileSize)
+    , TileRows((frame.rows + TileSize - 1) / TileSize)
   {
+    this->sweepColumns();
   }
 
-  void run()
+  int pieces() const { return this->TileColumns; }
+
+  /** TileSize pixels of a row, or as many as there are. */
+  void measure(int row, int piece, float* out)
   {
+    const int first = piece * TileSize, last = std::min(first + TileSize, this->Map.columns);
+    if (this->Limit <= LongestFloat && first + TileSize <= this->Map.columns)
+    {
+      this->fillRow(row, first, out);
+      return;
+    }
+    for (int c = first; c < last; ++c)
+    {
+      out[c - first] = this->distanceAt(c, row);
+    }
+  }
+
+  /** All pixels. */
+  void run(std::vector<float>& value)
+  {
+    value.resize(std::size_t(this->Map.columns) * this->Map.rows);
     this->classifyTiles();
-    this->sweepColumns();
     for (int tile = 0; tile < this->TileColumns * this->TileRows; ++tile)
     {
-      this->fill(tile % this->TileColumns, tile / this->TileColumns);
+      this->fill(tile % this->TileColumns, tile / this->TileColumns, value);
     }
   }
 
@@ -227,36 +267,29 @@ private:
     }
   }
 
-  void fill(int tileColumn, int tileRow)
+  void fill(int tileColumn, int tileRow, std::vector<float>& value)
   {
     const int lastRow = std::min((tileRow + 1) * TileSize, this->Map.rows);
     const int firstColumn = tileColumn * TileSize;
     const int lastColumn = std::min(firstColumn + TileSize, this->Map.columns);
     const bool far = this->alone(tileColumn, tileRow);
-    const float value = this->row(tileRow * TileSize)[firstColumn] != 0 ? this->Map.reach : -this->Map.reach;
-    const bool vectorised = !far && this->Limit <= LongestFloat && firstColumn + TileSize <= this->Map.columns;
+    const float most = this->row(tileRow * TileSize)[firstColumn] != 0 ? this->Map.reach : -this->Map.reach;
     for (int r = tileRow * TileSize; r < lastRow; ++r)
     {
-      float* out = &this->Map.value[std::size_t(r) * this->Map.columns];
-      if (vectorised)
-      {
-        this->fillRow(r, firstColumn, out + firstColumn);
-        continue;
-      }
+      float* out = &value[std::size_t(r) * this->Map.columns];
       if (far)
       {
-        std::fill(out + firstColumn, out + lastColumn, value);
-        continue;
+        std::fill(out + firstColumn, out + lastColumn, most);
       }
-      for (int c = firstColumn; c < lastColumn; ++c)
+      else
       {
-        out[c] = this->distanceAt(c, r);
+        this->measure(r, tileColumn, out + firstColumn);
       }
     }
   }
 
   const std::uint8_t* Object;
-  DistanceMap& Map;
+  const DistanceFrame& Map;
   int Limit;
   int TileColumns;
   int TileRows;
@@ -264,6 +297,9 @@ private:
   std::vector<std::int16_t> InColumn;
   std::vector<float> Around;
 };
+
+namespace
+{
 
 /** Mark those of a row's whole blocks that have a value below the reach. */
 SILHOUETTE_VECTORISED void markNear(const float* values, int blocks, float reach, std::int32_t* near)
@@ -323,23 +359,45 @@ bool DistanceMap::farInside(double firstU, double lastU, double firstV, double l
 DistanceMap distanceMap(const std::uint8_t* object, int width, int height, double reach)
 {
   DistanceMap map;
-  map.width = width;
-  map.height = height;
-  map.reach = float(std::clamp(reach, 1.0, 30000.0));
-  const auto box = objectBox(object, width, height);
-  if (box[1] < box[0])
+  static_cast<DistanceFrame&>(map) = frameOf(object, width, height, reach);
+  if (map.columns > 0)
   {
-    return map;
+    DistanceTransform(object, map).run(map.value);
+    countBlocks(map);
   }
-  const int margin = int(std::ceil(map.reach)) + 1;
-  map.left = std::max(box[0] - margin, 0);
-  map.top = std::max(box[2] - margin, 0);
-  map.columns = std::min(box[1] + margin, width - 1) - map.left + 1;
-  map.rows = std::min(box[3] + margin, height - 1) - map.top + 1;
-  map.value.resize(std::size_t(map.columns) * map.rows);
-  Transform(object, map).run();
-  countBlocks(map);
   return map;
+}
+
+DistancesOnDemand::DistancesOnDemand(const std::uint8_t* object, int width, int height, double reach)
+  : Frame(std::make_unique<DistanceFrame>(frameOf(object, width, height, reach)))
+{
+  if (this->Frame->columns > 0)
+  {
+    this->Transform = std::make_unique<DistanceTransform>(object, *this->Frame);
+    this->Known.assign(std::size_t(this->Frame->rows) * this->Transform->pieces(), -1);
+  }
+}
+
+DistancesOnDemand::~DistancesOnDemand() = default;
+
+float DistancesOnDemand::at(double u, double v)
+{
+  return this->Transform
+    ? this->Frame->interpolate(u, v, [this](int row, int column) { return this->pixel(row, column); })
+    : -this->Frame->reach;
+}
+
+float DistancesOnDemand::pixel(int row, int column)
+{
+  const int piece = column / TileSize;
+  std::int32_t& known = this->Known[std::size_t(row) * this->Transform->pieces() + piece];
+  if (known < 0)
+  {
+    known = std::int32_t(this->Values.size() / TileSize);
+    this->Values.resize(this->Values.size() + TileSize);
+    this->Transform->measure(row, piece, &this->Values[std::size_t(known) * TileSize]);
+  }
+  return this->Values[std::size_t(known) * TileSize + column % TileSize];
 }
 
 } // namespace silhouette

@@ -7,13 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace silhouette
 {
 
-/** Distances in pixels, positive inside, exact up to `reach` and cut off there; kept for the object's surroundings alone. */
-struct DistanceMap
+/** Which part of an image distances are kept of: the object's surroundings alone. */
+struct DistanceFrame
 {
   int width = 0; ///< of the image
   int height = 0;
@@ -21,30 +22,43 @@ struct DistanceMap
   int top = 0;
   int columns = 0;
   int rows = 0;
-  float reach = 0;
-  std::vector<float> value; ///< rows * columns, at the pixels' centres
-  /** For each block of 8 x 8 pixels and those before it in both directions, how many are not wholly at the reach. */
-  std::vector<std::int32_t> blocksNear;
+  float reach = 0; ///< px: where distances are cut off
 
-  /** Between the pixels' centres, bilinearly; beyond the image as far less as the image is away. */
-  float at(double u, double v) const
+  /**
+   * Between the pixels' centres, bilinearly; beyond the image as far less as the image is away. `pixel(row, column)` is the
+   * value of a pixel of the part that is kept; there is one.
+   */
+  template <typename Pixel>
+  float interpolate(double u, double v, const Pixel& pixel) const
   {
-    if (this->value.empty())
-    {
-      return -this->reach;
-    }
     // Beyond the part that is kept there is only background.
     const double x = std::clamp(u - this->left, 0.0, double(this->columns - 1));
     const double y = std::clamp(v - this->top, 0.0, double(this->rows - 1));
     const int c = std::min(int(x), std::max(this->columns - 2, 0));
     const int r = std::min(int(y), std::max(this->rows - 2, 0));
-    const int right = this->columns > 1 ? 1 : 0;
-    const std::size_t below = this->rows > 1 ? std::size_t(this->columns) : 0;
+    const int right = this->columns > 1 ? c + 1 : c, below = this->rows > 1 ? r + 1 : r;
     const float s = float(x - c), t = float(y - r);
-    const float* p = &this->value[std::size_t(r) * this->columns + c];
-    const float inner = (p[0] * (1 - s) + p[right] * s) * (1 - t) + (p[below] * (1 - s) + p[below + right] * s) * t;
+    const float inner = (pixel(r, c) * (1 - s) + pixel(r, right) * s) * (1 - t) +
+      (pixel(below, c) * (1 - s) + pixel(below, right) * s) * t;
     const double dx = u - this->left - x, dy = v - this->top - y;
     return dx == 0.0 && dy == 0.0 ? inner : std::max(-this->reach, inner - float(std::sqrt(dx * dx + dy * dy)));
+  }
+};
+
+/** Distances in pixels, positive inside, exact up to `reach` and cut off there. */
+struct DistanceMap : DistanceFrame
+{
+  std::vector<float> value; ///< rows * columns, at the pixels' centres
+  /** For each block of 8 x 8 pixels and those before it in both directions, how many are not wholly at the reach. */
+  std::vector<std::int32_t> blocksNear;
+
+  /** The distance at a place; of an image without object the whole reach outside. */
+  float at(double u, double v) const
+  {
+    return this->value.empty()
+      ? -this->reach
+      : this->interpolate(
+          u, v, [this](int row, int column) { return this->value[std::size_t(row) * this->columns + column]; });
   }
 
   /** Is the value, but for rounding, the whole reach everywhere between these places? May say no where it is. Cost: four look-ups. */
@@ -56,5 +70,31 @@ struct DistanceMap
  * kind, less half a pixel. Cost: one pass over the image, and about `reach` steps for each pixel that near to the contour.
  */
 DistanceMap distanceMap(const std::uint8_t* object, int width, int height, double reach);
+
+class DistanceTransform;
+
+/**
+ * distanceMap() for whoever asks about few places: what at() says is the same, and only the pixels around the places are
+ * measured. For one thread at a time. The image has to outlive it. Cost: two passes over the columns, and about the distance
+ * itself for each sixteen pixels of a row that are asked for.
+ */
+class DistancesOnDemand
+{
+public:
+  DistancesOnDemand(const std::uint8_t* object, int width, int height, double reach);
+  ~DistancesOnDemand();
+  DistancesOnDemand(const DistancesOnDemand&) = delete;
+  DistancesOnDemand& operator=(const DistancesOnDemand&) = delete;
+
+  float at(double u, double v);
+
+private:
+  float pixel(int row, int column);
+
+  std::unique_ptr<DistanceFrame> Frame;
+  std::unique_ptr<DistanceTransform> Transform; ///< none where there is no object
+  std::vector<std::int32_t> Known;              ///< for each piece of a row where its pixels are, or -1
+  std::vector<float> Values;
+};
 
 } // namespace silhouette

@@ -57,6 +57,26 @@ public:
   }
 };
 
+/** A part of an algorithm too short to be told of: another Execution without its progress. */
+class Unannounced : public Execution
+{
+public:
+  explicit Unannounced(Execution& whole)
+    : Whole(whole)
+  {
+  }
+
+  void forRanges(std::size_t count, std::size_t grain, const Range& work) override
+  {
+    this->Whole.forRanges(count, grain, work);
+  }
+  int threads() const override { return this->Whole.threads(); }
+  bool cancelled() const override { return this->Whole.cancelled(); }
+
+private:
+  Execution& Whole;
+};
+
 /** A phase of an algorithm: forwards to another Execution and maps its own 0 to 1 onto [from, to] of it. */
 class Phase : public Execution
 {

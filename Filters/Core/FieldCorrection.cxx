@@ -312,8 +312,6 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
   {
     some.push_back(view);
   }
-  fieldViews.observe(some, execution);
-  execution.checkpoint(0.2);
   Correction correction(surface, fieldViews, options);
   const auto residuals = contourResiduals(fieldViews, surface, some, correction.limit(), execution);
   result.deficit = std::max(0.0, typicalResidual(residuals));

@@ -62,12 +62,15 @@ void FieldViews::observe(const std::vector<int>& views, Execution& execution)
         if (map.width == 0)
         {
           const PreparedView& view = (*this->Views)[views[i]];
-          // Octants nearer to the camera than the middle are larger.
-          const double pixels = 1.25 * this->Reach * this->CentreScale[views[i]];
-          map = distanceMap(view.silhouette(), view.width, view.height, pixels);
+          map = distanceMap(view.silhouette(), view.width, view.height, this->reachInPixels(views[i]));
         }
       }
     });
+}
+
+double FieldViews::reachInPixels(int view) const
+{
+  return 1.25 * this->Reach * this->CentreScale[view]; // octants nearer to the camera than the middle are larger
 }
 
 void FieldViews::project(int view)

@@ -29,6 +29,10 @@ public:
   double reach() const { return this->Reach; }
   /** The observed silhouette's distances; observe() has made them. */
   const DistanceMap& observed(int view) const { return this->Observed[view]; }
+  bool isObserved(int view) const { return this->Observed[view].width > 0; }
+  /** px: observed distances are exact up to here. */
+  double reachInPixels(int view) const;
+  const PreparedView& view(int view) const { return (*this->Views)[view]; }
 
   /** The silhouettes of a mesh, as the views (shifted) would see it: one image for each view asked for. */
   std::vector<BinaryImage> render(const Mesh& mesh, const std::vector<int>& views, Execution& execution) const;

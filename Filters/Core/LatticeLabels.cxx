@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LatticeLabels.h"
 
+#include "CornerVotes.h"
 #include "MarchingCubesTable.h"
 
 #include <Eigen/Geometry>
@@ -105,22 +106,18 @@ LatticeLabels::LatticeLabels(
   : TheOctree(&octree)
   , Shell(std::move(shell))
   , Inside(Shell.corners.size())
-  , Support(Shell.corners.size())
 {
   this->setSurvivors(leafCells(octree, OctantState::Intersection));
   const LatticeViews latticeViews(views, octree.lattice);
   const int required = views.size() - octree.backgroundVotes;
-  execution.forRanges(this->Shell.corners.size(), 1024,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t c = first; c < last; ++c)
-      {
-        const LatticePoint p = fromMorton(this->Shell.corners[c]);
-        const int votes = latticeViews.insideVotes(p);
-        this->Support[c] = float(votes);
-        this->Inside[c] = votes >= required && !octree.lattice.onBorder(p);
-      }
-    });
+  Unannounced voting(execution);
+  const auto votes =
+    cornerVotes(this->Shell, CellViews(octree, this->Shell, latticeViews, voting), latticeViews, voting);
+  this->Support.assign(votes.begin(), votes.end());
+  for (std::size_t c = 0; c < votes.size(); ++c)
+  {
+    this->Inside[c] = votes[c] >= required && !octree.lattice.onBorder(fromMorton(this->Shell.corners[c]));
+  }
 }
 
 LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const SurfaceCrossings& crossings)
@@ -282,7 +279,8 @@ void LatticeLabels::insideOf(std::uint64_t first, std::size_t count, std::uint8_
   const auto corners = this->Shell.corners.begin();
   const auto from = std::lower_bound(corners, this->Shell.corners.end(), first);
   const auto to = std::lower_bound(from, this->Shell.corners.end(), first + count);
-  this->fillUnlabelled(first, count, inside);
+  OctantCursor octants(*this->TheOctree);
+  this->fillUnlabelled(first, count, octants, inside);
   for (auto corner = from; corner != to; ++corner)
   {
     const bool onBorder = this->TheOctree->lattice.onBorder(fromMorton(*corner));
@@ -291,11 +289,12 @@ void LatticeLabels::insideOf(std::uint64_t first, std::size_t count, std::uint8_
 }
 
 /** An octant that holds all of the points tells once for all of them. */
-void LatticeLabels::fillUnlabelled(std::uint64_t first, std::size_t count, std::uint8_t* inside) const
+void LatticeLabels::fillUnlabelled(
+  std::uint64_t first, std::size_t count, OctantCursor& octants, std::uint8_t* inside) const
 {
   const LatticePoint low = fromMorton(first), high = fromMorton(first + count - 1);
   const Octree& octree = *this->TheOctree;
-  const auto location = octree.locate(low);
+  const auto location = octants.locate(low);
   const bool within = std::min({ low.i, low.j, low.k }) > 0 && octree.lattice.hasCell(high);
   if (count == 1 || (!this->Field && within && location.generation >= 0 &&
                       std::size_t(1) << 3 * (octree.lattice.depth - location.generation) >= count))
@@ -305,7 +304,7 @@ void LatticeLabels::fillUnlabelled(std::uint64_t first, std::size_t count, std::
   }
   for (std::size_t child = 0; child < 8; ++child)
   {
-    this->fillUnlabelled(first + child * (count / 8), count / 8, inside + child * (count / 8));
+    this->fillUnlabelled(first + child * (count / 8), count / 8, octants, inside + child * (count / 8));
   }
 }
 

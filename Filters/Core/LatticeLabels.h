@@ -101,7 +101,7 @@ public:
 private:
   /** Label of a lattice point that is no corner of the shell. */
   bool unlabelled(const LatticePoint& p) const;
-  void fillUnlabelled(std::uint64_t first, std::size_t count, std::uint8_t* inside) const;
+  void fillUnlabelled(std::uint64_t first, std::size_t count, OctantCursor& octants, std::uint8_t* inside) const;
   void fromOctree();
   void spread(const SurfaceCrossings& crossings);
 

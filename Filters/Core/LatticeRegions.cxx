@@ -4,6 +4,7 @@
 #include "MarchingCubesTable.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace silhouette
@@ -57,6 +58,8 @@ void joinOctants(const Octree& octree, OctantState state, bool beyond, const std
 {
   const auto node = [&](int g, std::size_t i) { return std::uint32_t(regions.firstOctant[g] + i); };
   const auto counts = [&](std::uint32_t octant) { return refuted.empty() || !refuted[octant - regions.firstOctant[0]]; };
+  const OctantCursor cursor(octree);
+  std::array<OctantCursor, 6> cursors{ cursor, cursor, cursor, cursor, cursor, cursor };
   forOctants(octree, state,
     [&](int g, std::size_t i)
     {
@@ -68,8 +71,9 @@ void joinOctants(const Octree& octree, OctantState state, bool beyond, const std
       const std::int32_t size = std::int32_t(1) << (octree.lattice.depth - g);
       const LatticePoint across[6] = { { p.i - 1, p.j, p.k }, { p.i + size, p.j, p.k }, { p.i, p.j - 1, p.k },
         { p.i, p.j + size, p.k }, { p.i, p.j, p.k - 1 }, { p.i, p.j, p.k + size } };
-      for (const auto& cell : across)
+      for (int side = 0; side < 6; ++side)
       {
+        const LatticePoint& cell = across[side];
         if (!octree.lattice.hasCell(cell))
         {
           if (beyond)
@@ -78,7 +82,7 @@ void joinOctants(const Octree& octree, OctantState state, bool beyond, const std
           }
           continue;
         }
-        const auto other = octree.locate(cell);
+        const auto other = cursors[side].locate(cell);
         if (other.generation >= 0 && other.generation <= g && other.state == state && counts(node(other.generation, other.index)))
         {
           regions.sets.unite(node(g, i), node(other.generation, other.index));
@@ -87,15 +91,24 @@ void joinOctants(const Octree& octree, OctantState state, bool beyond, const std
     });
 }
 
+/** One for each cell around a corner: going through corners in Morton order, each stays in the same octants for long. */
+using CursorsAround = std::array<OctantCursor, 8>;
+
+CursorsAround cursorsAround(const Octree& octree)
+{
+  const OctantCursor c(octree);
+  return { c, c, c, c, c, c, c, c };
+}
+
 /** Join a shell corner with the octants of one state that touch it. */
 void joinCornerToOctants(
-  const Octree& octree, const LatticePoint& p, std::uint32_t corner, OctantState state, const std::vector<std::uint8_t>& refuted,
+  CursorsAround& octants, const LatticePoint& p, std::uint32_t corner, OctantState state, const std::vector<std::uint8_t>& refuted,
   LatticeRegions& regions)
 {
   for (int n = 0; n < 8; ++n)
   {
     const LatticePoint o = cornerOffset(n);
-    const auto location = octree.locate({ p.i - o.i, p.j - o.j, p.k - o.k });
+    const auto location = octants[n].locate({ p.i - o.i, p.j - o.j, p.k - o.k });
     if (location.generation >= 0 && location.state == state)
     {
       const std::size_t octant = regions.firstOctant[location.generation] + location.index;
@@ -183,6 +196,7 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
   const std::vector<std::uint8_t> refuted = refutedOctants(labels, state);
   joinOctants(octree, state, !inside, refuted, regions);
   joinCorners(labels, inside, regions);
+  CursorsAround octants = cursorsAround(octree);
   for (std::size_t c = 0; c < shell.corners.size(); ++c)
   {
     const LatticePoint p = fromMorton(shell.corners[c]);
@@ -192,7 +206,7 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
     }
     if ((labels.inside()[c] != 0) == inside)
     {
-      joinCornerToOctants(octree, p, std::uint32_t(c), state, refuted, regions);
+      joinCornerToOctants(octants, p, std::uint32_t(c), state, refuted, regions);
     }
   }
   return regions;
@@ -300,9 +314,10 @@ LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell)
       regions.sets.unite(corners[0], corner);
     }
   }
+  CursorsAround octants = cursorsAround(octree);
   for (std::size_t c = 0; c < shell.corners.size(); ++c)
   {
-    joinCornerToOctants(octree, fromMorton(shell.corners[c]), std::uint32_t(c), OctantState::Inside, {}, regions);
+    joinCornerToOctants(octants, fromMorton(shell.corners[c]), std::uint32_t(c), OctantState::Inside, {}, regions);
   }
   return regions;
 }

@@ -119,4 +119,25 @@ struct Octree
   bool touchesInside(const LatticePoint& p) const;
 };
 
+/**
+ * Octree::locate() for cells near one another: each is looked for from the octant on that holds it and the one before.
+ * Not for several threads at once. The octree has to outlive it.
+ */
+class OctantCursor
+{
+public:
+  explicit OctantCursor(const Octree& octree)
+    : Source(&octree)
+  {
+  }
+
+  Octree::Location locate(const LatticePoint& cell);
+
+private:
+  const Octree* Source;
+  std::uint64_t Leaf = 0;
+  int Deepest = -1; ///< generation of the octant found last; -1 where none is
+  std::array<std::size_t, MaximumDepth + 1> Index{}; ///< of that octant and of those that it lies in
+};
+
 } // namespace silhouette

@@ -35,8 +35,9 @@ public:
     : Width(width)
     , Height(height)
     , Stride(std::size_t(width) + 1)
-    , Steps(Stride * std::size_t(height), 0)
+    , Steps(kept())
   {
+    this->Steps.resize(std::max(this->Steps.size(), this->Stride * std::size_t(height)), 0);
   }
 
   /** The row's middle is crossed from the lower row's end (in v) on, up to but not including the upper's. */
@@ -62,11 +63,12 @@ public:
     }
   }
 
-  void fill(BinaryImage& image) const
+  /** Once, and last. */
+  void fill(BinaryImage& image)
   {
     for (int row = this->First; row <= this->Last; ++row)
     {
-      const std::int16_t* steps = &this->Steps[std::size_t(row) * this->Stride];
+      std::int16_t* steps = &this->Steps[std::size_t(row) * this->Stride];
       std::uint8_t* pixels = &image.pixels[std::size_t(row) * std::size_t(this->Width)];
       std::int16_t count = 0;
       for (int column = 0; column < this->Width; ++column)
@@ -80,16 +82,24 @@ public:
         count = std::int16_t(count + steps[column]);
         pixels[column] = count != 0;
       }
+      std::fill(steps, steps + this->Stride, std::int16_t(0));
     }
   }
 
 private:
+  /** The memory, which serves the thread's next image. */
+  static std::vector<std::int16_t>& kept()
+  {
+    thread_local std::vector<std::int16_t> steps;
+    return steps;
+  }
+
   int Width;
   int Height;
   std::size_t Stride;
   int First = 1 << 30;
   int Last = -1;
-  std::vector<std::int16_t> Steps;
+  std::vector<std::int16_t>& Steps; ///< all 0 before and after
 };
 
 } // namespace
@@ -187,6 +197,7 @@ BinaryImage OutlineRenderer::render(const Projection& projection, int width, int
     const auto& plane = this->Planes[t];
     faces[t] = q[0] * plane[0] + q[1] * plane[1] + q[2] * plane[2] + determinant * plane[3] > 0.0;
   }
+  BinaryImage image{ width, height, std::vector<std::uint8_t>(std::size_t(width) * height, 0) };
   Windings windings(width, height);
   for (const Edge& edge : this->Edges)
   {
@@ -196,7 +207,6 @@ BinaryImage OutlineRenderer::render(const Projection& projection, int width, int
       windings.add(points[edge.from], points[edge.to], sign);
     }
   }
-  BinaryImage image{ width, height, std::vector<std::uint8_t>(std::size_t(width) * height, 0) };
   windings.fill(image);
   return image;
 }

@@ -42,6 +42,7 @@ std::vector<std::uint64_t> disputedCells(const Octree& octree, const BrickField&
   execution.forRanges(found.size(), 8,
     [&](std::size_t first, std::size_t last)
     {
+      OctantCursor cursor(octree);
       for (std::size_t n = first * BrickField::BrickPoints; n < last * BrickField::BrickPoints; ++n)
       {
         const std::uint64_t code = field.code(n);
@@ -50,7 +51,7 @@ std::vector<std::uint64_t> disputedCells(const Octree& octree, const BrickField&
         {
           continue;
         }
-        const auto location = octree.locate(cell);
+        const auto location = cursor.locate(cell);
         const bool inside = field.values()[n] > 0.0f;
         if ((inside && location.state == OctantState::Background) || (!inside && location.state == OctantState::Inside))
         {
@@ -91,6 +92,11 @@ void pinWhereBricksEnd(const Octree& octree, BrickField& field, Execution& execu
         for (std::uint64_t local = 0; local < BrickField::BrickPoints; ++local)
         {
           const LatticePoint p = fromMorton(local);
+          const auto within = [](int x) { return x > 0 && x < BrickField::BrickSize - 1; };
+          if (within(p.i) && within(p.j) && within(p.k))
+          {
+            continue;
+          }
           bool end = false;
           for (int n = 0; n < 27 && !end; ++n)
           {

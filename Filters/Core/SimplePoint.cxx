@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SimplePoint.h"
 
+#include "Bits.h"
 #include "Lattice.h"
 #include "MarchingCubesTable.h"
 
@@ -21,83 +22,73 @@ int distance(int a, int b)
   return dx > 1 || dy > 1 || dz > 1 ? 4 : dx + dy + dz;
 }
 
-struct Distances
+/** Sets of the 27 points, a bit each. */
+using Members = std::uint32_t;
+
+/** For each step and point: the points that differ from it in at most so many coordinates, each by one. */
+struct Within
 {
-  std::array<std::array<std::int8_t, 27>, 27> d{};
-  Distances()
+  std::array<std::array<Members, 27>, 4> of{};
+  Within()
   {
-    for (int a = 0; a < 27; ++a)
+    for (int step = 1; step <= 3; ++step)
     {
-      for (int b = 0; b < 27; ++b)
+      for (int a = 0; a < 27; ++a)
       {
-        this->d[a][b] = std::int8_t(distance(a, b));
+        for (int b = 0; b < 27; ++b)
+        {
+          this->of[step][a] |= Members(distance(a, b) <= step) << b;
+        }
       }
     }
   }
 };
 
-const Distances& distances()
+const std::array<Members, 27>& within(int step)
 {
-  static const Distances table;
-  return table;
+  static const Within table;
+  return table.of[step];
 }
 
-using Members = std::array<bool, 27>;
+/** Points within `step` of one of `from`. */
+Members reach(Members from, int step)
+{
+  const auto& near = within(step);
+  Members reached = 0;
+  for (; from != 0; from &= from - 1)
+  {
+    reached |= near[lowestBit(from)];
+  }
+  return reached;
+}
 
 /** Points of `from` and those of `among` that are within `step` of one of them. */
-Members grow(const Members& from, const Members& among, int step)
+Members grow(Members from, Members among, int step)
 {
-  const auto& d = distances().d;
-  Members grown = from;
-  for (int a = 0; a < 27; ++a)
-  {
-    for (int b = 0; from[a] && b < 27; ++b)
-    {
-      grown[b] = grown[b] || (among[b] && d[a][b] <= step);
-    }
-  }
-  return grown;
+  return from | (among & reach(from, step));
 }
 
-/** Points of the 27, the centre left out, that carry `label` and are within `step` of the centre. */
-Members around(const Neighbourhood& labels, bool label, int step)
+/** Those of `members`, the centre left out, that are within `step` of the centre. */
+Members around(Members members, int step)
 {
-  Members members{};
-  for (int n = 0; n < 27; ++n)
-  {
-    members[n] = n != Centre && labels[n] == label && distances().d[n][Centre] <= step;
-  }
-  return members;
+  return members & within(step)[Centre] & ~(Members(1) << Centre);
 }
 
-/** Number the components of `members`, points within `step` of each other being joined. */
-int components(const Members& members, int step, std::array<std::int8_t, 27>& number)
+/** Number the components of `members`, points within `step` of each other being joined, from the first point on. */
+template <typename Name>
+int components(Members members, int step, const Name& name)
 {
-  number.fill(-1);
   int count = 0;
-  for (int seed = 0; seed < 27; ++seed)
+  for (; members != 0; ++count)
   {
-    if (!members[seed] || number[seed] >= 0)
+    Members part = members & (0 - members), wave = part;
+    while (wave != 0)
     {
-      continue;
+      wave = reach(wave, step) & members & ~part;
+      part |= wave;
     }
-    std::array<int, 27> stack;
-    int height = 0;
-    stack[height++] = seed;
-    number[seed] = std::int8_t(count);
-    while (height > 0)
-    {
-      const int a = stack[--height];
-      for (int b = 0; b < 27; ++b)
-      {
-        if (members[b] && number[b] < 0 && distances().d[a][b] <= step)
-        {
-          number[b] = std::int8_t(count);
-          stack[height++] = b;
-        }
-      }
-    }
-    ++count;
+    members &= ~part;
+    name(part, count);
   }
   return count;
 }
@@ -107,14 +98,25 @@ int components(const Members& members, int step, std::array<std::int8_t, 27>& nu
 TopologicalNumbers topologicalNumbers(const Neighbourhood& labels)
 {
   TopologicalNumbers numbers;
+  Members solid = 0;
+  for (int n = 0; n < 27; ++n)
+  {
+    solid |= Members(labels[n]) << n;
+  }
+  const Members hollow = ~solid & ((Members(1) << 27) - 1);
   // Inside: the geodesic 18-neighbourhood of order 2.
-  const Members solid = grow(around(labels, true, 2), around(labels, true, 3), 2);
-  numbers.inside = components(solid, 2, numbers.insideComponent);
+  numbers.insideComponent.fill(-1);
+  numbers.inside = components(grow(around(solid, 2), around(solid, 3), 2), 2,
+    [&](Members part, int number)
+    {
+      for (; part != 0; part &= part - 1)
+      {
+        numbers.insideComponent[lowestBit(part)] = std::int8_t(number);
+      }
+    });
   // Outside: the geodesic 6-neighbourhood of order 3, the first two orders within the 18-neighbourhood.
-  const Members second = grow(around(labels, false, 1), around(labels, false, 2), 1);
-  const Members outside = grow(second, around(labels, false, 3), 1);
-  std::array<std::int8_t, 27> unused;
-  numbers.outside = components(outside, 1, unused);
+  const Members second = grow(around(hollow, 1), around(hollow, 2), 1);
+  numbers.outside = components(grow(second, around(hollow, 3), 1), 1, [](Members, int) {});
   return numbers;
 }
 

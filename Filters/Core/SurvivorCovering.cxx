@@ -295,20 +295,51 @@ private:
     return false;
   }
 
+  /** Corners outside whose cells, the surviving ones, are in more than one component; ascending. */
+  std::vector<std::uint32_t> cornersBetweenComponents()
+  {
+    constexpr std::uint32_t none = 0xffffffffu, several = 0xfffffffeu;
+    std::vector<std::uint32_t> seen(this->shell().corners.size(), none);
+    const auto meet = [&](std::uint32_t a, std::uint32_t b) { return a == none || a == b ? b : b == none ? a : several; };
+    for (std::size_t cell = 0; cell < this->shell().cells.size(); ++cell)
+    {
+      if (this->Labels.isSurvivor(cell))
+      {
+        const auto& corners = this->shell().cellCorners[cell];
+        std::uint32_t own = none;
+        for (const std::uint32_t corner : corners)
+        {
+          own = this->inside(corner) ? meet(own, this->component(corner)) : own;
+        }
+        for (const std::uint32_t corner : corners)
+        {
+          seen[corner] = meet(seen[corner], own);
+        }
+      }
+    }
+    std::vector<std::uint32_t> between;
+    for (std::uint32_t corner = 0; corner < seen.size(); ++corner)
+    {
+      if (seen[corner] == several && !this->inside(corner))
+      {
+        between.push_back(corner);
+      }
+    }
+    return between;
+  }
+
   void joinAcrossCorners()
   {
     std::vector<Candidate> apart;
-    std::array<std::uint32_t, 8> cells;
-    for (std::uint32_t corner = 0; corner < this->shell().corners.size(); ++corner)
+    for (const std::uint32_t corner : this->cornersBetweenComponents())
     {
-      const LatticePoint p = fromMorton(this->shell().corners[corner]);
-      if (!this->inside(corner) && !this->Labels.octree().lattice.onBorder(p) &&
-        this->parts(cells, this->Labels.cellsAround(p, cells)))
+      if (!this->Labels.octree().lattice.onBorder(fromMorton(this->shell().corners[corner])))
       {
         apart.push_back(this->consider(corner));
       }
     }
     std::sort(apart.begin(), apart.end(), [](const Candidate& a, const Candidate& b) { return a.rank() < b.rank(); });
+    std::array<std::uint32_t, 8> cells;
     for (const auto& candidate : apart)
     {
       const int count = this->Labels.cellsAround(fromMorton(this->shell().corners[candidate.corner]), cells);

@@ -63,6 +63,48 @@ std::vector<std::uint64_t> mixedCells(const LatticeLabels& labels)
   return cells;
 }
 
+/** A bit for each point of a brick: i + 8 j of the word k. */
+using Planes = std::array<std::uint64_t, Side>;
+
+/** The points of a brick, in Morton order, that are not of one part. */
+Planes planesOf(const std::uint8_t* parts, Part part)
+{
+  Planes planes{};
+  for (std::uint64_t n = 0; n < BrickField::BrickPoints; ++n)
+  {
+    const LatticePoint p = fromMorton(n);
+    planes[p.k] |= std::uint64_t(parts[n] != part) << (p.i + Side * p.j);
+  }
+  return planes;
+}
+
+/** The brick that begins `step` points, 0 to 8, ahead of `low` along an axis; `high` is the brick after it. */
+Planes shifted(const Planes& low, const Planes& high, int axis, int step)
+{
+  if (step == 0 || step == Side)
+  {
+    return step == 0 ? low : high;
+  }
+  Planes result;
+  const std::uint64_t kept = 0x0101010101010101ULL * (0xffu >> step); // of each row, what comes from `low`
+  for (int k = 0; k < Side; ++k)
+  {
+    if (axis == 0)
+    {
+      result[k] = (low[k] >> step & kept) | (high[k] << (Side - step) & ~kept);
+    }
+    else if (axis == 1)
+    {
+      result[k] = low[k] >> Side * step | high[k] << Side * (Side - step);
+    }
+    else
+    {
+      result[k] = k + step < Side ? low[k + step] : high[k + step - Side];
+    }
+  }
+  return result;
+}
+
 /** Parts of the lattice points in bricks around the surface. */
 class Parts
 {
@@ -115,11 +157,16 @@ private:
    */
   void openByCubes(int width, Execution& execution)
   {
-    std::vector<std::uint8_t> fits(this->Values.size());
-    for (std::size_t n = 0; n < fits.size(); ++n)
-    {
-      fits[n] = this->Values[n] != Solid;
-    }
+    const std::size_t count = this->Bricks.bricks().size();
+    std::vector<Planes> fits(count);
+    execution.forRanges(count, 64,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t brick = first; brick < last; ++brick)
+        {
+          fits[brick] = planesOf(&this->Values[brick * BrickField::BrickPoints], Solid);
+        }
+      });
     for (int axis = 0; axis < 3; ++axis)
     {
       this->combineAlong(axis, width, true, fits, execution); // from here on, a cube fits
@@ -128,53 +175,46 @@ private:
     {
       this->combineAlong(axis, width, false, fits, execution); // a cube that fits holds this point
     }
-    for (std::size_t n = 0; n < fits.size(); ++n)
-    {
-      this->Values[n] = this->Values[n] == Solid ? Solid : fits[n] ? Wide : Narrow;
-    }
+    execution.forRanges(count, 64,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t n = first * BrickField::BrickPoints; n < last * BrickField::BrickPoints; ++n)
+        {
+          const LatticePoint p = fromMorton(n % BrickField::BrickPoints);
+          const bool wide = fits[n / BrickField::BrickPoints][p.k] >> (p.i + Side * p.j) & 1;
+          this->Values[n] = this->Values[n] == Solid ? Solid : wide ? Wide : Narrow;
+        }
+      });
   }
 
   /** All of the `width` + 1 points ahead, or any of those behind. */
-  void combineAlong(int axis, int width, bool all, std::vector<std::uint8_t>& values, Execution& execution) const
+  void combineAlong(int axis, int width, bool all, std::vector<Planes>& values, Execution& execution) const
   {
-    std::vector<std::uint8_t> result(values.size());
-    execution.forRanges(this->Bricks.bricks().size(), 8,
+    std::vector<Planes> result(values.size());
+    execution.forRanges(values.size(), 64,
       [&](std::size_t first, std::size_t last)
       {
+        Planes outside;
+        outside.fill(~std::uint64_t(0));
         for (std::size_t brick = first; brick < last; ++brick)
         {
           LatticePoint q = fromMorton(this->Bricks.bricks()[brick]);
           (axis == 0 ? q.i : axis == 1 ? q.j : q.k) += all ? 1 : -1;
           const std::ptrdiff_t beside = std::min({ q.i, q.j, q.k }) < 0 ? -1 : this->Bricks.findBrick(mortonCode(q));
-          for (std::size_t line = 0; line < BrickField::BrickPoints; ++line)
+          const Planes& other = beside < 0 ? outside : values[std::size_t(beside)];
+          result[brick] = values[brick];
+          for (int step = 1; step <= width; ++step)
           {
-            if ((line >> axis & 0x49) == 0) // the first point of a line along the axis
+            const Planes moved = all ? shifted(values[brick], other, axis, step)
+                                     : shifted(other, values[brick], axis, Side - step);
+            for (int k = 0; k < Side; ++k)
             {
-              this->combineLine(axis, width, all, values, brick, beside, line, result);
+              result[brick][k] = all ? result[brick][k] & moved[k] : result[brick][k] | moved[k];
             }
           }
         }
       });
     values.swap(result);
-  }
-
-  static void combineLine(int axis, int width, bool all, const std::vector<std::uint8_t>& values, std::size_t brick,
-    std::ptrdiff_t beside, std::size_t line, std::vector<std::uint8_t>& result)
-  {
-    std::array<std::uint8_t, 2 * Side> points;
-    for (int t = 0; t < Side; ++t)
-    {
-      const std::size_t local = line | spreadBits(std::uint64_t(t)) << axis;
-      const std::size_t own = all ? t : t + Side, other = all ? t + Side : t;
-      points[own] = values[brick * BrickField::BrickPoints + local];
-      points[other] = beside < 0 ? 1 : values[beside * BrickField::BrickPoints + local];
-    }
-    for (int t = 0; t < Side; ++t)
-    {
-      const auto from = points.begin() + (all ? t : t + Side - width);
-      const bool any = std::find(from, from + width + 1, std::uint8_t(!all)) != from + width + 1;
-      result[brick * BrickField::BrickPoints + (line | spreadBits(std::uint64_t(t)) << axis)] = all != any;
-    }
   }
 
   const LatticeLabels& Labels;
@@ -263,6 +303,7 @@ private:
     LatticeRegions regions = connectWideOutside(this->Labels, this->Width);
     this->Sets = UnionFind(this->Outside.size() + regions.sets.size());
     const std::uint32_t octants = std::uint32_t(this->Outside.size());
+    OctantCursor cursor(octree);
     for (std::uint32_t n = 0; n < octants; ++n)
     {
       if (!isWide(this->Outside[n]))
@@ -287,7 +328,7 @@ private:
         this->Sets.unite(n, octants + regions.beyond);
         continue;
       }
-      const auto location = octree.locate(p);
+      const auto location = cursor.locate(p);
       if (location.generation >= 0 && location.state == OctantState::Background &&
         octree.lattice.cells() >> location.generation >= this->Width)
       {

@@ -19,12 +19,13 @@ constexpr double LeastThickness = 1.5; ///< octants
 constexpr double LeastShare = 0.2;     ///< of a view's contour places; where fewer are thick, the view says nothing
 
 /** Least squares of residual = constant - normal . shift over contour places. */
+template <typename Distances>
 class Fit
 {
 public:
-  Fit(const BinaryImage& image, const DistanceMap& map, double pixelsPerOctant)
+  Fit(const BinaryImage& image, Distances& distances, double pixelsPerOctant)
     : Image(image)
-    , Map(map)
+    , Map(distances)
     , Scale(pixelsPerOctant)
   {
   }
@@ -33,17 +34,17 @@ public:
   {
     ++this->Places;
     const double residual = this->Map.at(u, v);
-    if (std::abs(residual) > limit || this->thin(u, v))
+    if (std::abs(residual) > limit)
+    {
+      return;
+    }
+    const Vector2 gradient = this->gradient(u, v);
+    const double length = gradient.norm();
+    if (length < 0.5 || this->thin(u, v, gradient, length)) // between two contours there is no normal
     {
       return;
     }
     this->Residuals.push_back(float(residual));
-    const Vector2 gradient = this->gradient(u, v);
-    const double length = gradient.norm();
-    if (length < 0.5)
-    {
-      return; // between two contours there is no normal
-    }
     const Eigen::Vector3d row(-gradient[0] / length, -gradient[1] / length, 1.0);
     this->Normal += row * row.transpose();
     this->Right += residual * row;
@@ -71,19 +72,13 @@ public:
 private:
   Vector2 gradient(double u, double v) const
   {
-    const DistanceMap& map = this->Map;
+    Distances& map = this->Map;
     return { map.at(u + 1.0, v) - map.at(u - 1.0, v), map.at(u, v + 1.0) - map.at(u, v - 1.0) };
   }
 
   /** Is the surface's silhouette thinner here than what noise is told from? Its ends and gaps would look like noise. */
-  bool thin(double u, double v) const
+  bool thin(double u, double v, const Vector2& inward, double length) const
   {
-    const Vector2 inward = this->gradient(u, v);
-    const double length = inward.norm();
-    if (length < 0.5)
-    {
-      return true;
-    }
     const double step = LeastThickness * this->Scale / length;
     const double column = std::floor(u + step * inward[0] + 0.5), row = std::floor(v + step * inward[1] + 0.5);
     return !(column >= 0.0 && row >= 0.0 && column < this->Image.width && row < this->Image.height) ||
@@ -102,7 +97,7 @@ private:
   }
 
   const BinaryImage& Image;
-  const DistanceMap& Map;
+  Distances& Map;
   double Scale; ///< pixels for an octant
   std::size_t Places = 0;
   std::vector<float> Residuals;
@@ -111,9 +106,10 @@ private:
 };
 
 /** Every place between two pixels of which one belongs to the surface. */
-ContourResidual compare(const BinaryImage& image, const DistanceMap& map, double limit, double pixelsPerOctant)
+template <typename Distances>
+ContourResidual compare(const BinaryImage& image, Distances&& distances, double limit, double pixelsPerOctant)
 {
-  Fit fit(image, map, pixelsPerOctant);
+  Fit fit(image, distances, pixelsPerOctant);
   for (int row = 0; row < image.height; ++row)
   {
     const std::uint8_t* pixels = &image.pixels[std::size_t(row) * image.width];
@@ -154,7 +150,12 @@ std::vector<ContourResidual> contourResiduals(
         const double scale = fieldViews.pixelsPerOctant(views[i]);
         // One image at a time: its memory serves the next.
         const BinaryImage image = fieldViews.render(renderer, views[i]);
-        residuals[i] = compare(image, fieldViews.observed(views[i]), limit * scale, scale);
+        const PreparedView& view = fieldViews.view(views[i]);
+        residuals[i] = fieldViews.isObserved(views[i])
+          ? compare(image, fieldViews.observed(views[i]), limit * scale, scale)
+          : compare(image,
+              DistancesOnDemand(view.silhouette(), view.width, view.height, fieldViews.reachInPixels(views[i])),
+              limit * scale, scale);
       }
     });
   return residuals;

@@ -22,7 +22,8 @@ struct ContourResidual
 /**
  * Residuals of the given views. Places whose distance is more than `limit` octants, and where the surface's silhouette is
  * thinner than one and a half, do not count; a view with few others says nothing. The shift is fitted together with a constant, so that a
- * surface that is too small all around is not shifted. Cost: rendering, and a pass over the image.
+ * surface that is too small all around is not shifted. Cost: rendering, and a pass over the image; views that are not
+ * observed are measured where the surface's contour runs.
  */
 std::vector<ContourResidual> contourResiduals(
   const FieldViews& fieldViews, const Mesh& surface, const std::vector<int>& views, double limit, Execution& execution);

@@ -186,6 +186,30 @@ TEST(DistanceMap, BetweenPixelsItIsBilinearAndBeyondTheImageItFalls)
   }
 }
 
+TEST(DistanceMap, OnDemandItIsTheSame)
+{
+  Random random(5);
+  std::vector<BinaryImage> images{ blank(30, 20, 0), blank(33, 20, 1) };
+  const int sizes[][2] = { { 1, 1 }, { 1, 40 }, { 17, 33 }, { 64, 48 }, { 130, 90 } };
+  for (const auto& size : sizes)
+  {
+    images.push_back(randomMask(size[0], size[1], random));
+  }
+  for (const BinaryImage& image : images)
+  {
+    for (const double reach : { 2.0, 9.0, 2500.0 })
+    {
+      const DistanceMap map = mapOf(image, reach);
+      DistancesOnDemand some(image.pixels.data(), image.width, image.height, reach);
+      for (int place = 0; place < 400; ++place)
+      {
+        const double u = random.uniform(-4, image.width + 4), v = random.uniform(-4, image.height + 4);
+        ASSERT_EQ(some.at(u, v), map.at(u, v)) << image.width << " x " << image.height << " at " << u << " " << v;
+      }
+    }
+  }
+}
+
 TEST(DistanceMap, WhatIsCalledFarInsideIsAtTheReach)
 {
   Random random(3);
