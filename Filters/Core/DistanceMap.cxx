@@ -17,7 +17,7 @@ namespace
 constexpr int TileSize = 16;
 static_assert(TileSize == 16, "classifyTiles() reads a tile's row as two words");
 constexpr int BlockSize = 8;
-constexpr int LongestFloat = 2000; ///< px: distances up to here have squares that float sums exactly
+constexpr int LongestShort = 127; ///< px: two squares of distances up to here add up within sixteen bits
 
 /** Least and greatest column and row of the object; the greatest are below the least where there is none. */
 std::array<int, 4> objectBox(const std::uint8_t* object, int width, int height)
@@ -48,31 +48,66 @@ std::array<int, 4> objectBox(const std::uint8_t* object, int width, int height)
 }
 
 /**
- * The least d * d + column[d]^2 over |d| <= `most`, for a row's TileSize pixels of one kind: `column` has the distances within the columns,
- * 0 at pixels of the other kind. Stops where no larger d can matter.
+ * For a row's TileSize pixels, from the squares of the distances within the columns (0 at pixels of the other kind): the least
+ * d * d + column[d]^2 over |d| <= `most`. Stops where no larger d can matter.
  */
-SILHOUETTE_VECTORISED void leastSquares(const float* column, int most, float* best)
+template <typename Square>
+inline void leastSquares(const Square* squares, int most, Square* best)
 {
-  for (int c = 0; c < TileSize; ++c)
-  {
-    best[c] = column[c] * column[c];
-  }
+  std::copy(squares, squares + TileSize, best);
   for (int d = 1; d <= most; ++d)
   {
-    const float square = float(d) * float(d);
-    float greatest = 0.0f;
+    const Square square = Square(d * d);
+    Square greatest = 0;
     for (int c = 0; c < TileSize; ++c)
     {
-      const float before = column[c - d] * column[c - d] + square, after = column[c + d] * column[c + d] + square;
-      const float nearer = before < after ? before : after;
-      best[c] = best[c] < nearer ? best[c] : nearer;
-      greatest = greatest < best[c] ? best[c] : greatest;
+      const Square nearer = std::min(squares[c - d], squares[c + d]);
+      best[c] = std::min(best[c], Square(nearer + square));
+      greatest = std::max(greatest, best[c]);
     }
-    if (!(float(d + 1) * float(d + 1) < greatest))
+    if (long(d + 1) * (d + 1) >= long(greatest))
     {
       return;
     }
   }
+}
+
+/** Some pixels of a row, with those around them that count. */
+struct RowPiece
+{
+  const std::uint8_t* pixels;   ///< the first one that there is
+  const std::int16_t* inColumn; ///< its distance within the column
+  int before;                   ///< so many are missing before it
+  int count;                    ///< so many there are
+  int most;                     ///< so many count before and after the piece
+};
+
+/** Distances of a piece's TileSize pixels if they are of one kind; `squares` is where there are no pixels their limit. */
+template <typename Square>
+inline void measureKind(const RowPiece& row, std::uint8_t kind, Square* squares, float* distances)
+{
+  Square* const own = squares + row.before;
+  for (int c = 0; c < row.count; ++c)
+  {
+    const Square square = Square(row.inColumn[c] * row.inColumn[c]);
+    own[c] = row.pixels[c] == kind ? square : Square(0);
+  }
+  Square best[TileSize];
+  leastSquares(squares + row.most, row.most, best);
+  for (int c = 0; c < TileSize; ++c)
+  {
+    distances[c] = std::sqrt(float(best[c])) - 0.5f;
+  }
+}
+
+SILHOUETTE_VECTORISED void measureShort(const RowPiece& row, std::uint8_t kind, std::int16_t* squares, float* distances)
+{
+  measureKind(row, kind, squares, distances);
+}
+
+SILHOUETTE_VECTORISED void measureLong(const RowPiece& row, std::uint8_t kind, std::int32_t* squares, float* distances)
+{
+  measureKind(row, kind, squares, distances);
 }
 
 /** Each pixel's distance in its column to the other kind, at most one more a row. */
@@ -126,7 +161,7 @@ public:
   void measure(int row, int piece, float* out)
   {
     const int first = piece * TileSize, last = std::min(first + TileSize, this->Map.columns);
-    if (this->Limit <= LongestFloat && first + TileSize <= this->Map.columns)
+    if (first + TileSize <= this->Map.columns)
     {
       this->fillRow(row, first, out);
       return;
@@ -238,31 +273,31 @@ private:
   /** distanceAt() for TileSize pixels of a row, once for each kind that is among them. */
   void fillRow(int row, int firstColumn, float* out)
   {
-    const std::uint8_t* pixels = this->row(row);
-    const std::int16_t* vertical = &this->InColumn[std::size_t(row) * this->Map.columns];
-    const int most = this->Limit - 1;
+    const int most = this->Limit - 1, length = TileSize + 2 * most;
     const int from = std::max(firstColumn - most, 0), to = std::min(firstColumn + TileSize + most, this->Map.columns);
-    this->Around.assign(std::size_t(TileSize + 2 * most), float(this->Limit));
-    float* around = this->Around.data() + most - firstColumn;
+    const std::uint8_t* pixels = this->row(row);
+    const std::int16_t* inColumn = &this->InColumn[std::size_t(row) * this->Map.columns];
+    const RowPiece piece{ pixels + from, inColumn + from, from - (firstColumn - most), to - from, most };
+    const bool isShort = this->Limit <= LongestShort;
+    isShort ? this->Short.resize(std::size_t(length)) : this->Long.resize(std::size_t(length));
+    if (piece.count < length)
+    {
+      std::fill(this->Short.begin(), this->Short.end(), std::int16_t(this->Limit * this->Limit));
+      std::fill(this->Long.begin(), this->Long.end(), this->Limit * this->Limit);
+    }
+    float distances[TileSize];
     for (const std::uint8_t kind : { 0, 1 })
     {
-      if (std::find(pixels + firstColumn, pixels + firstColumn + TileSize, kind) == pixels + firstColumn + TileSize)
+      if (std::memchr(pixels + firstColumn, kind, TileSize) == nullptr)
       {
         continue;
       }
-      for (int c = from; c < to; ++c)
-      {
-        around[c] = pixels[c] == kind ? float(vertical[c]) : 0.0f;
-      }
-      float best[TileSize];
-      leastSquares(around + firstColumn, most, best);
+      isShort ? measureShort(piece, kind, this->Short.data(), distances)
+              : measureLong(piece, kind, this->Long.data(), distances);
       for (int c = 0; c < TileSize; ++c)
       {
-        const float distance = std::min(std::sqrt(best[c]) - 0.5f, this->Map.reach);
-        if (pixels[firstColumn + c] == kind)
-        {
-          out[c] = kind != 0 ? distance : -distance;
-        }
+        const float distance = std::min(distances[c], this->Map.reach);
+        out[c] = pixels[firstColumn + c] == kind ? (kind != 0 ? distance : -distance) : out[c];
       }
     }
   }
@@ -295,7 +330,8 @@ private:
   int TileRows;
   std::vector<std::uint8_t> Tiles;
   std::vector<std::int16_t> InColumn;
-  std::vector<float> Around;
+  std::vector<std::int16_t> Short; ///< squares, as many as a piece needs
+  std::vector<std::int32_t> Long;  ///< the same for limits that are too long for the others
 };
 
 namespace

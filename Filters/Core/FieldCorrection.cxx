@@ -2,6 +2,7 @@
 #include "FieldCorrection.h"
 
 #include "Error.h"
+#include "Vectorised.h"
 #include "ViewAlignment.h"
 
 #include <algorithm>
@@ -14,8 +15,7 @@ namespace silhouette
 namespace
 {
 
-constexpr int BlockSize = 4;             ///< points a side of a block, in which views are asked or not
-constexpr std::size_t BlockPoints = 64;  ///< consecutive in Morton order
+constexpr std::size_t BlockPoints = FieldViews::BlockPoints;
 constexpr double FinestShift = 0.1; ///< px: the contours of clean silhouettes seem shifted by up to two thirds of this
 constexpr double ThoughtOutAt = 128.0; ///< cells a side of the lattice that the largest lengths are stated for
 
@@ -80,6 +80,21 @@ struct TypicalShift
     this->octants /= std::max(count, 1);
   }
 };
+
+bool allAtMost(const float* values, float most)
+{
+  return std::all_of(values, values + BlockPoints, [most](float value) { return value <= most; });
+}
+
+SILHOUETTE_VECTORISED void keepLeast(const float* distances, float* least, float* second)
+{
+  for (std::size_t n = 0; n < BlockPoints; ++n)
+  {
+    const float greater = least[n] < distances[n] ? distances[n] : least[n];
+    second[n] = greater < second[n] ? greater : second[n];
+    least[n] = distances[n] < least[n] ? distances[n] : least[n];
+  }
+}
 
 class Correction
 {
@@ -150,48 +165,59 @@ private:
     }
   }
 
+  /** A view that says anything but the whole reach in a block of points, and where it sees the block. */
+  struct Near
+  {
+    int view;
+    FieldViews::Region region;
+  };
+
   /** The least and the second-least distance over the observed silhouettes. */
   void findLeast(Execution& execution)
   {
     this->Second.assign(this->Least.size(), 0.0f);
-    const float far = -float(this->Views.reach());
+    const float far = float(this->Views.reach());
     execution.forRanges(this->Least.size() / BlockPoints, 8,
       [&](std::size_t first, std::size_t last)
       {
-        std::vector<int> near;
+        std::vector<Near> near;
         for (std::size_t block = first; block < last; ++block)
         {
-          this->findNear(fromMorton(this->Least.code(block * BlockPoints)), nullptr, near);
-          for (std::size_t n = block * BlockPoints; n < (block + 1) * BlockPoints; ++n)
+          const LatticePoint lowest = fromMorton(this->Least.code(block * BlockPoints));
+          this->findNear(lowest, nullptr, near);
+          float* least = &this->Least.values()[block * BlockPoints];
+          float* second = &this->Second[block * BlockPoints];
+          std::fill(least, least + BlockPoints, far);
+          std::fill(second, second + BlockPoints, far);
+          float distance[BlockPoints];
+          for (std::size_t i = 0; i < near.size() && !allAtMost(second, -far); ++i)
           {
-            const LatticePoint p = fromMorton(this->Least.code(n));
-            float least = -far, second = -far;
-            for (std::size_t i = 0; i < near.size() && !(least <= far && second <= far); ++i)
+            const int view = near[i].view;
+            this->Views.insideBlock(view, this->Views.observed(view), lowest, near[i].region, distance);
+            keepLeast(distance, least, second);
+          }
+          for (std::size_t n = 0; n < BlockPoints; ++n)
+          {
+            if (this->Views.lattice().onBorder(lowest + fromMorton(n)))
             {
-              const int view = near[i];
-              const float distance = this->Views.inside(this->Views.observed(view), this->Views.place(view, p));
-              second = std::min(second, std::max(least, distance));
-              least = std::min(least, distance);
+              least[n] = second[n] = -far;
             }
-            const bool border = this->Views.lattice().onBorder(p);
-            this->Least.values()[n] = border ? far : least;
-            this->Second[n] = border ? far : second;
           }
         }
       });
   }
 
-  /** The views that say anything but the whole reach in a block of points: all that have to be asked there. */
-  void findNear(const LatticePoint& block, const std::vector<DistanceMap>* maps, std::vector<int>& near) const
+  /** All that have to be asked in a block. */
+  void findNear(const LatticePoint& block, const std::vector<DistanceMap>* maps, std::vector<Near>& near) const
   {
     near.clear();
     for (const int view : this->All)
     {
-      const FieldViews::Region region = this->Views.region(view, block, BlockSize);
+      const FieldViews::Region region = this->Views.region(view, block, FieldViews::BlockSize);
       if (!this->Views.wholeReach(this->Views.observed(view), region) ||
         (maps && !this->Views.wholeReach((*maps)[view], region)))
       {
-        near.push_back(view);
+        near.push_back({ view, region });
       }
     }
   }
@@ -212,28 +238,37 @@ private:
     result.hull = applyHullBase(model, this->Options.hullConvexity, 3.0 * this->Scale, execution);
     const auto maps = this->Views.distances(this->Views.render(model.contourMesh(execution), this->All, execution), execution);
     execution.checkpoint(0.85);
-    const float reach = float(this->Options.contourReach * this->Proportion);
+    this->Least.values() = model.values();
+    const float band = 3.0f * float(this->Scale);
     execution.forRanges(model.size() / BlockPoints, 8,
       [&](std::size_t first, std::size_t last)
       {
-        std::vector<float> own(maps.size()), seen(maps.size());
-        std::vector<int> near;
+        std::vector<Near> near;
+        std::vector<float> own(maps.size() * BlockPoints), seen(own.size());
         for (std::size_t block = first; block < last; ++block)
         {
-          bool known = false;
-          for (std::size_t n = block * BlockPoints; n < (block + 1) * BlockPoints; ++n)
+          const float* values = &model.values()[block * BlockPoints];
+          const auto inBand = [&](float value) { return std::abs(value) < band; };
+          if (std::none_of(values, values + BlockPoints, inBand))
           {
-            this->Least.values()[n] = model.values()[n];
-            if (std::abs(model.values()[n]) < 3.0f * float(this->Scale))
+            continue;
+          }
+          const LatticePoint lowest = fromMorton(model.code(block * BlockPoints));
+          this->findNear(lowest, &maps, near);
+          for (std::size_t i = 0; i < near.size(); ++i)
+          {
+            const auto& [view, region] = near[i];
+            this->Views.insideBlock(view, maps[view], lowest, region, &own[i * BlockPoints]);
+            this->Views.insideBlock(view, this->Views.observed(view), lowest, region, &seen[i * BlockPoints]);
+          }
+          float agreed[BlockPoints];
+          this->agree(near, own.data(), seen.data(), agreed);
+          for (std::size_t n = 0; n < BlockPoints; ++n)
+          {
+            if (inBand(values[n]))
             {
-              if (!known)
-              {
-                known = true;
-                this->findNear(fromMorton(model.code(block * BlockPoints)), &maps, near);
-                std::fill(own.begin(), own.end(), float(this->Views.reach()));
-                std::fill(seen.begin(), seen.end(), float(this->Views.reach()));
-              }
-              this->Least.values()[n] = this->agreement(fromMorton(model.code(n)), maps, near, reach, own, seen);
+              const bool border = this->Views.lattice().onBorder(lowest + fromMorton(n));
+              this->Least.values()[block * BlockPoints + n] = border ? -float(this->Views.reach()) : agreed[n];
             }
           }
         }
@@ -252,36 +287,45 @@ private:
     }
   }
 
-  /** What the model is corrected by at a point. `own` and `seen` hold the whole reach for views that are not `near`. */
-  float agreement(const LatticePoint& p, const std::vector<DistanceMap>& maps, const std::vector<int>& near, float reach,
-    std::vector<float>& own, std::vector<float>& seen) const
+  /**
+   * What the field is to be at a block's points. `own` and `seen` hold the distances in the model's and in the observed silhouettes for the
+   * views that are near; others say the whole reach in both.
+   */
+  void agree(const std::vector<Near>& near, const float* own, const float* seen, float* agreed) const
   {
-    const float far = float(this->Views.reach());
-    if (this->Views.lattice().onBorder(p))
+    const float far = float(this->Views.reach()), reach = float(this->Options.contourReach * this->Proportion);
+    float least[BlockPoints], sum[BlockPoints] = {}, weights[BlockPoints] = {};
+    std::fill(least, least + BlockPoints, far);
+    for (std::size_t n = 0; n < near.size() * BlockPoints; ++n)
     {
-      return -far;
+      least[n % BlockPoints] = std::min(least[n % BlockPoints], own[n]);
     }
-    float least = far;
-    for (const int view : near)
+    const float deepest = *std::max_element(least, least + BlockPoints);
+    const bool farAreHeard = (far - deepest) / reach < 3.0f;
+    const auto hear = [&](std::size_t n, float modelled, float observed)
     {
-      const FieldViews::Place place = this->Views.place(view, p);
-      own[view] = this->Views.inside(maps[view], place);
-      seen[view] = this->Views.inside(this->Views.observed(view), place);
-      least = std::min(least, own[view]);
-    }
-    float sum = 0.0f, weights = 0.0f;
-    for (std::size_t view = 0; view < maps.size(); ++view)
-    {
-      const float x = (own[view] - least) / reach;
-      const float residual = seen[view] - own[view];
+      const float x = (modelled - least[n]) / reach, residual = observed - modelled;
       if (x < 3.0f && std::abs(residual) < float(this->limit()))
       {
         const float weight = std::exp(-0.5f * x * x);
-        sum += weight * residual;
-        weights += weight;
+        sum[n] += weight * residual;
+        weights[n] += weight;
       }
+    };
+    std::size_t next = 0;
+    for (const int view : this->All)
+    {
+      const bool isNear = next < near.size() && near[next].view == view;
+      for (std::size_t n = 0; n < BlockPoints && (isNear || farAreHeard); ++n)
+      {
+        isNear ? hear(n, own[next * BlockPoints + n], seen[next * BlockPoints + n]) : hear(n, far, far);
+      }
+      next += isNear;
     }
-    return weights > 0.0f ? std::clamp(least + sum / weights, -far, far) : least;
+    for (std::size_t n = 0; n < BlockPoints; ++n)
+    {
+      agreed[n] = weights[n] > 0.0f ? std::clamp(least[n] + sum[n] / weights[n], -far, far) : least[n];
+    }
   }
 
   const FieldCorrectionOptions& Options;

@@ -2,6 +2,7 @@
 #include "FieldViews.h"
 
 #include "OutlineRendering.h"
+#include "Vectorised.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,52 @@ double scaleAt(const LatticeProjection& projection, const HomogeneousPixel& h)
     square += 0.5 * (du * du + dv * dv);
   }
   return std::sqrt(square) / h.W;
+}
+
+constexpr int Points = int(FieldViews::BlockPoints);
+
+/** Where the points of a block fall in a map that has all four pixels around each of them. */
+struct BlockPlaces
+{
+  double i[Points], j[Points], k[Points];
+  double octantsPerPixel[Points];
+  std::int32_t pixel[Points]; ///< the upper left one of the four
+  float s[Points], t[Points];
+  float value[4][Points];
+};
+
+SILHOUETTE_VECTORISED void placeBlock(
+  const LatticeProjection& projection, double depthScale, const DistanceFrame& frame, BlockPlaces& places)
+{
+  const auto& c = projection.constant;
+  const auto& step = projection.step;
+  for (int n = 0; n < Points; ++n)
+  {
+    const double i = places.i[n], j = places.j[n], k = places.k[n];
+    const double U = ((c[0] + step[0][0] * i) + step[1][0] * j) + step[2][0] * k;
+    const double V = ((c[1] + step[0][1] * i) + step[1][1] * j) + step[2][1] * k;
+    const double W = ((c[2] + step[0][2] * i) + step[1][2] * j) + step[2][2] * k;
+    const double inverse = 1.0 / W;
+    const double x = U * inverse - frame.left, y = V * inverse - frame.top;
+    const std::int32_t column = std::int32_t(x), row = std::int32_t(y);
+    places.octantsPerPixel[n] = W * depthScale;
+    places.pixel[n] = row * frame.columns + column;
+    places.s[n] = float(x - column);
+    places.t[n] = float(y - row);
+  }
+}
+
+SILHOUETTE_VECTORISED void interpolateBlock(const BlockPlaces& places, float reach, float* inside)
+{
+  for (int n = 0; n < Points; ++n)
+  {
+    const float s = places.s[n], t = places.t[n];
+    const float pixels = (places.value[0][n] * (1 - s) + places.value[1][n] * s) * (1 - t) +
+      (places.value[2][n] * (1 - s) + places.value[3][n] * s) * t;
+    const float octants = float(pixels * places.octantsPerPixel[n]);
+    const float least = octants < -reach ? -reach : octants;
+    inside[n] = reach < least ? reach : least;
+  }
 }
 
 } // namespace
@@ -131,6 +178,39 @@ FieldViews::Region FieldViews::region(int view, const LatticePoint& lowest, int 
       std::max(region.lastV, v + guard), std::min(region.octantsPerPixel, 0.999 * h.W * this->DepthScale[view]) };
   }
   return region;
+}
+
+void FieldViews::insideBlock(
+  int view, const DistanceMap& map, const LatticePoint& lowest, const Region& region, float* inside) const
+{
+  const bool within = region.octantsPerPixel > 0.0 && !map.value.empty() && region.firstU >= map.left &&
+    region.firstV >= map.top && region.lastU < map.left + map.columns - 1 && region.lastV < map.top + map.rows - 1;
+  if (!within || map.value.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
+  {
+    for (int n = 0; n < Points; ++n)
+    {
+      inside[n] = this->inside(map, this->place(view, lowest + fromMorton(std::uint64_t(n))));
+    }
+    return;
+  }
+  BlockPlaces places;
+  for (int n = 0; n < Points; ++n)
+  {
+    const LatticePoint p = lowest + fromMorton(std::uint64_t(n));
+    places.i[n] = p.i;
+    places.j[n] = p.j;
+    places.k[n] = p.k;
+  }
+  placeBlock(this->OnLattice[view], this->DepthScale[view], map, places);
+  for (int n = 0; n < Points; ++n)
+  {
+    const float* pixel = &map.value[std::size_t(places.pixel[n])];
+    places.value[0][n] = pixel[0];
+    places.value[1][n] = pixel[1];
+    places.value[2][n] = pixel[map.columns];
+    places.value[3][n] = pixel[map.columns + 1];
+  }
+  interpolateBlock(places, float(this->Reach), inside);
 }
 
 std::vector<BinaryImage> FieldViews::render(const Mesh& mesh, const std::vector<int>& views, Execution& execution) const

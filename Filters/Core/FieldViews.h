@@ -63,12 +63,21 @@ public:
       : float(this->Reach);
   }
 
+  static constexpr int BlockSize = 4;             ///< points a side of a block
+  static constexpr std::size_t BlockPoints = 64; ///< consecutive in Morton order
+
   /** A box of pixels around a cube of lattice points, and the least octantsPerPixel in it; 0 where it is not all seen. */
   struct Region
   {
     double firstU, lastU, firstV, lastV, octantsPerPixel;
   };
   Region region(int view, const LatticePoint& lowest, int size) const;
+  /**
+   * inside() of the places of a block's points, to the same bits, in Morton order. `region` is that of the block; the map is
+   * of this view's image.
+   */
+  void insideBlock(
+    int view, const DistanceMap& map, const LatticePoint& lowest, const Region& region, float* inside) const;
   /** Is inside() the whole reach for all points of a region? May say no where it is. */
   bool wholeReach(const DistanceMap& map, const Region& region) const
   {
