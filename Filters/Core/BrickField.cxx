@@ -102,10 +102,10 @@ private:
   std::array<std::uint8_t, Row * Row * Row> Signs;
 };
 
-std::size_t localIndex(int axis, int along, int a, int b)
+/** Of the first point of a line along an axis. */
+std::size_t localIndex(int axis, int a, int b)
 {
   LatticePoint p;
-  (axis == 0 ? p.i : axis == 1 ? p.j : p.k) = along;
   (axis == 0 ? p.j : p.i) = a;
   (axis == 2 ? p.j : p.k) = b;
   return std::size_t(mortonCode(p));
@@ -168,12 +168,17 @@ void BrickField::smoothAlong(int axis, const std::vector<float>& kernel, Executi
   const int radius = int(kernel.size()) - 1;
   const int reach = (radius + BrickSize - 1) / BrickSize; // in bricks
   std::vector<float> result(this->Values.size());
+  std::array<std::size_t, BrickSize> along;
+  for (int t = 0; t < BrickSize; ++t)
+  {
+    along[t] = std::size_t(spreadBits(std::uint64_t(t)) << axis);
+  }
   execution.forRanges(this->Bricks.size(), 8,
-    [&](std::size_t first, std::size_t last)
+    [&](std::size_t firstBrick, std::size_t lastBrick)
     {
       std::vector<std::ptrdiff_t> beside(2 * reach + 1);
       std::vector<float> line(BrickSize * beside.size());
-      for (std::size_t brick = first; brick < last; ++brick)
+      for (std::size_t brick = firstBrick; brick < lastBrick; ++brick)
       {
         const LatticePoint p = fromMorton(this->Bricks[brick]);
         beside[reach] = std::ptrdiff_t(brick);
@@ -182,20 +187,20 @@ void BrickField::smoothAlong(int axis, const std::vector<float>& kernel, Executi
           for (int n = 1; n <= reach; ++n)
           {
             LatticePoint q = p;
-            std::int32_t& along = axis == 0 ? q.i : axis == 1 ? q.j : q.k;
-            along += side * n;
+            std::int32_t& x = axis == 0 ? q.i : axis == 1 ? q.j : q.k;
+            x += side * n;
             const std::ptrdiff_t nearer = beside[reach + side * (n - 1)];
-            beside[reach + side * n] = nearer < 0 || along < 0 ? -1 : this->findBrick(mortonCode(q));
+            beside[reach + side * n] = nearer < 0 || x < 0 ? -1 : this->findBrick(mortonCode(q));
           }
         }
         for (int ab = 0; ab < BrickSize * BrickSize; ++ab)
         {
-          const int a = ab % BrickSize, b = ab / BrickSize;
+          const std::size_t first = localIndex(axis, ab % BrickSize, ab / BrickSize);
           const auto load = [&](int slot)
           {
             for (int t = 0; beside[slot] >= 0 && t < BrickSize; ++t)
             {
-              line[slot * BrickSize + t] = this->Values[beside[slot] * BrickPoints + localIndex(axis, t, a, b)];
+              line[slot * BrickSize + t] = this->Values[beside[slot] * BrickPoints + first + along[t]];
             }
           };
           load(reach);
@@ -216,7 +221,7 @@ void BrickField::smoothAlong(int axis, const std::vector<float>& kernel, Executi
             {
               sum += kernel[d] * (middle[-d] + middle[d]);
             }
-            result[brick * BrickPoints + localIndex(axis, t, a, b)] = sum;
+            result[brick * BrickPoints + first + along[t]] = sum;
           }
         }
       }

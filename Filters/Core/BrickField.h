@@ -8,6 +8,7 @@
 #include "Lattice.h"
 #include "Mesh.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -51,6 +52,38 @@ private:
   Lattice TheLattice;
   std::vector<std::uint64_t> Bricks;
   std::vector<float> Values;
+};
+
+/**
+ * BrickField::find() for points near one another: the bricks found last are remembered, eight, as many as meet in a point. Not for several threads
+ * at once. The field has to outlive it.
+ */
+class BrickCursor
+{
+public:
+  explicit BrickCursor(const BrickField& field)
+    : Field(&field)
+  {
+    this->Brick.fill(~std::uint64_t(0));
+  }
+
+  std::ptrdiff_t find(std::uint64_t point)
+  {
+    const std::uint64_t brick = point / BrickField::BrickPoints;
+    const std::size_t slot = brick % 8; // the oddness of its coordinates: neighbours have other slots
+    if (this->Brick[slot] != brick)
+    {
+      this->Brick[slot] = brick;
+      this->Index[slot] = this->Field->findBrick(brick);
+    }
+    const std::ptrdiff_t index = this->Index[slot];
+    return index < 0 ? -1 : index * std::ptrdiff_t(BrickField::BrickPoints) + std::ptrdiff_t(point % BrickField::BrickPoints);
+  }
+
+private:
+  const BrickField* Field;
+  std::array<std::uint64_t, 8> Brick;
+  std::array<std::ptrdiff_t, 8> Index{};
 };
 
 } // namespace silhouette

@@ -196,7 +196,7 @@ private:
             this->Views.insideBlock(view, this->Views.observed(view), lowest, near[i].region, distance);
             keepLeast(distance, least, second);
           }
-          for (std::size_t n = 0; n < BlockPoints; ++n)
+          for (std::size_t n = 0; n < BlockPoints && this->touchesBorder(lowest); ++n)
           {
             if (this->Views.lattice().onBorder(lowest + fromMorton(n)))
             {
@@ -205,6 +205,12 @@ private:
           }
         }
       });
+  }
+
+  bool touchesBorder(const LatticePoint& block) const
+  {
+    const int last = FieldViews::BlockSize - 1;
+    return this->Views.lattice().onBorder(block) || this->Views.lattice().onBorder(block + LatticePoint{ last, last, last });
   }
 
   /** All that have to be asked in a block. */
@@ -263,11 +269,12 @@ private:
           }
           float agreed[BlockPoints];
           this->agree(near, own.data(), seen.data(), agreed);
+          const bool atBorder = this->touchesBorder(lowest);
           for (std::size_t n = 0; n < BlockPoints; ++n)
           {
             if (inBand(values[n]))
             {
-              const bool border = this->Views.lattice().onBorder(lowest + fromMorton(n));
+              const bool border = atBorder && this->Views.lattice().onBorder(lowest + fromMorton(n));
               this->Least.values()[block * BlockPoints + n] = border ? -float(this->Views.reach()) : agreed[n];
             }
           }

@@ -28,10 +28,26 @@ double scaleAt(const LatticeProjection& projection, const HomogeneousPixel& h)
 
 constexpr int Points = int(FieldViews::BlockPoints);
 
+/** The points of a block, from its lowest on, in Morton order. */
+struct BlockOffsets
+{
+  double i[Points], j[Points], k[Points];
+
+  BlockOffsets()
+  {
+    for (int n = 0; n < Points; ++n)
+    {
+      const LatticePoint p = fromMorton(std::uint64_t(n));
+      this->i[n] = p.i;
+      this->j[n] = p.j;
+      this->k[n] = p.k;
+    }
+  }
+};
+
 /** Where the points of a block fall in a map that has all four pixels around each of them. */
 struct BlockPlaces
 {
-  double i[Points], j[Points], k[Points];
   double octantsPerPixel[Points];
   std::int32_t pixel[Points]; ///< the upper left one of the four
   float s[Points], t[Points];
@@ -39,13 +55,14 @@ struct BlockPlaces
 };
 
 SILHOUETTE_VECTORISED void placeBlock(
-  const LatticeProjection& projection, double depthScale, const DistanceFrame& frame, BlockPlaces& places)
+  const LatticeProjection& projection, const LatticePoint& lowest, double depthScale, const DistanceFrame& frame,
+  const BlockOffsets& offsets, BlockPlaces& places)
 {
   const auto& c = projection.constant;
   const auto& step = projection.step;
   for (int n = 0; n < Points; ++n)
   {
-    const double i = places.i[n], j = places.j[n], k = places.k[n];
+    const double i = lowest.i + offsets.i[n], j = lowest.j + offsets.j[n], k = lowest.k + offsets.k[n];
     const double U = ((c[0] + step[0][0] * i) + step[1][0] * j) + step[2][0] * k;
     const double V = ((c[1] + step[0][1] * i) + step[1][1] * j) + step[2][1] * k;
     const double W = ((c[2] + step[0][2] * i) + step[1][2] * j) + step[2][2] * k;
@@ -193,15 +210,9 @@ void FieldViews::insideBlock(
     }
     return;
   }
+  static const BlockOffsets offsets;
   BlockPlaces places;
-  for (int n = 0; n < Points; ++n)
-  {
-    const LatticePoint p = lowest + fromMorton(std::uint64_t(n));
-    places.i[n] = p.i;
-    places.j[n] = p.j;
-    places.k[n] = p.k;
-  }
-  placeBlock(this->OnLattice[view], this->DepthScale[view], map, places);
+  placeBlock(this->OnLattice[view], lowest, this->DepthScale[view], map, offsets, places);
   for (int n = 0; n < Points; ++n)
   {
     const float* pixel = &map.value[std::size_t(places.pixel[n])];

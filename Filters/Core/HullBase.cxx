@@ -2,11 +2,13 @@
 #include "HullBase.h"
 
 #include "ConvexHull.h"
+#include "Vectorised.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace silhouette
@@ -16,10 +18,72 @@ namespace
 
 constexpr float Beside = 0.5f; ///< octants from the surface within which the median is taken
 
-/** The planes of a hull's facets in lattice coordinates, positive outside; facets without an area have none. */
-std::vector<Eigen::Vector4f> planesOf(const Mesh& hull, const Lattice& lattice)
+/** Planes n.x + d, coordinate by coordinate; their number is filled up to a multiple of Lanes with the first one. */
+class Planes
 {
-  std::vector<Eigen::Vector4f> planes;
+public:
+  static constexpr std::size_t Lanes = 8;
+
+  bool empty() const { return this->Count == 0; }
+  std::size_t size() const { return this->Count; }
+  std::size_t padded() const { return this->X.size(); }
+  const float* x() const { return this->X.data(); }
+  const float* y() const { return this->Y.data(); }
+  const float* z() const { return this->Z.data(); }
+  const float* d() const { return this->D.data(); }
+
+  void clear()
+  {
+    this->Count = 0;
+    for (auto* numbers : { &this->X, &this->Y, &this->Z, &this->D })
+    {
+      numbers->clear();
+    }
+  }
+  void add(float x, float y, float z, float d)
+  {
+    ++this->Count;
+    this->X.push_back(x);
+    this->Y.push_back(y);
+    this->Z.push_back(z);
+    this->D.push_back(d);
+  }
+  /** Once all are there. */
+  void pad()
+  {
+    for (auto* numbers : { &this->X, &this->Y, &this->Z, &this->D })
+    {
+      numbers->resize((this->Count + Lanes - 1) / Lanes * Lanes, numbers->empty() ? 0.0f : numbers->front());
+    }
+  }
+
+private:
+  std::size_t Count = 0;
+  std::vector<float> X, Y, Z, D;
+};
+
+/** Each plane's value at a point; returns the greatest. */
+SILHOUETTE_VECTORISED float valuesAt(const Planes& planes, float x, float y, float z, float* values)
+{
+  const float *nx = planes.x(), *ny = planes.y(), *nz = planes.z(), *d = planes.d();
+  float most[Planes::Lanes];
+  std::fill(most, most + Planes::Lanes, -std::numeric_limits<float>::infinity());
+  for (std::size_t n = 0; n < planes.padded(); n += Planes::Lanes)
+  {
+    for (std::size_t lane = 0; lane < Planes::Lanes; ++lane)
+    {
+      const float value = (nx[n + lane] * x + nz[n + lane] * z) + (ny[n + lane] * y + d[n + lane]);
+      values[n + lane] = value;
+      most[lane] = most[lane] < value ? value : most[lane];
+    }
+  }
+  return *std::max_element(most, most + Planes::Lanes);
+}
+
+/** The planes of a hull's facets in lattice coordinates, positive outside; facets without an area have none. */
+Planes planesOf(const Mesh& hull, const Lattice& lattice)
+{
+  Planes planes;
   const auto place = [&](std::int32_t point) -> Eigen::Vector3d
   { return (hull.points[point] - lattice.root.origin) / lattice.leafEdge(); };
   for (const Triangle& t : hull.triangles)
@@ -29,30 +93,21 @@ std::vector<Eigen::Vector4f> planesOf(const Mesh& hull, const Lattice& lattice)
     if (across.norm() > 1e-9)
     {
       const Eigen::Vector3d normal = across.normalized();
-      planes.emplace_back(float(normal[0]), float(normal[1]), float(normal[2]), float(-normal.dot(a)));
+      planes.add(float(normal[0]), float(normal[1]), float(normal[2]), float(-normal.dot(a)));
     }
   }
+  planes.pad();
   return planes;
 }
 
-Eigen::Vector4f toPoint(const LatticePoint& p)
-{
-  return { float(p.i), float(p.j), float(p.k), 1.0f };
-}
-
 /** Those of the planes that may be the farthest out for a point of a cube of `side` lattice points from `lowest` on. */
-void farthestFor(const std::vector<Eigen::Vector4f>& planes, const LatticePoint& lowest, int side,
-  std::vector<float>& values, std::vector<Eigen::Vector4f>& farthest)
+void farthestFor(
+  const Planes& planes, const LatticePoint& lowest, int side, std::vector<float>& values, Planes& farthest)
 {
   const float half = 0.5f * float(side - 1);
-  const Eigen::Vector4f centre = toPoint(lowest) + Eigen::Vector4f(half, half, half, 0.0f);
-  values.resize(planes.size());
-  float most = planes.front().dot(centre);
-  for (std::size_t n = 0; n < planes.size(); ++n)
-  {
-    values[n] = planes[n].dot(centre);
-    most = std::max(most, values[n]);
-  }
+  values.resize(planes.padded());
+  const float most =
+    valuesAt(planes, float(lowest.i) + half, float(lowest.j) + half, float(lowest.k) + half, values.data());
   // From the centre to a point no plane's value changes by more than the way.
   const float least = most - 2.0f * std::sqrt(3.0f) * half - 0.01f;
   farthest.clear();
@@ -60,20 +115,10 @@ void farthestFor(const std::vector<Eigen::Vector4f>& planes, const LatticePoint&
   {
     if (values[n] >= least)
     {
-      farthest.push_back(planes[n]);
+      farthest.add(planes.x()[n], planes.y()[n], planes.z()[n], planes.d()[n]);
     }
   }
-}
-
-float depthInHull(const std::vector<Eigen::Vector4f>& planes, const LatticePoint& p)
-{
-  const Eigen::Vector4f point = toPoint(p);
-  float farthest = planes.front().dot(point);
-  for (const Eigen::Vector4f& plane : planes)
-  {
-    farthest = std::max(farthest, plane.dot(point));
-  }
-  return -farthest;
+  farthest.pad();
 }
 
 constexpr std::size_t BlockPoints = 64; ///< consecutive in Morton order, 4 x 4 x 4
@@ -83,9 +128,9 @@ constexpr std::size_t CellPoints = 8;   ///< likewise, 2 x 2 x 2
 class BlockDepths
 {
 public:
-  BlockDepths(const BrickField& field, const std::vector<Eigen::Vector4f>& planes, double band)
+  BlockDepths(const BrickField& field, const Planes& planes, double band)
     : Field(field)
-    , Planes(planes)
+    , OfHull(planes)
     , Band(float(band))
   {
   }
@@ -98,7 +143,7 @@ public:
     {
       return;
     }
-    farthestFor(this->Planes, fromMorton(this->Field.code(block)), 4, this->Values, this->OfBlock);
+    farthestFor(this->OfHull, fromMorton(this->Field.code(block)), 4, this->Values, this->OfBlock);
     for (std::size_t cell = block; cell < block + BlockPoints; cell += CellPoints)
     {
       if (this->anyNear(cell, CellPoints))
@@ -106,13 +151,19 @@ public:
         farthestFor(this->OfBlock, fromMorton(this->Field.code(cell)), 2, this->Values, this->OfCell);
         for (std::size_t n = cell; n < cell + CellPoints; ++n)
         {
-          depth[n] = this->isNear(n) ? depthInHull(this->OfCell, fromMorton(this->Field.code(n))) : depth[n];
+          depth[n] = this->isNear(n) ? this->depthInHull(fromMorton(this->Field.code(n))) : depth[n];
         }
       }
     }
   }
 
 private:
+  /** By the planes of the point's cell. */
+  float depthInHull(const LatticePoint& p)
+  {
+    return -valuesAt(this->OfCell, float(p.i), float(p.j), float(p.k), this->Values.data());
+  }
+
   bool anyNear(std::size_t first, std::size_t count) const
   {
     bool any = false;
@@ -124,10 +175,10 @@ private:
   }
 
   const BrickField& Field;
-  const std::vector<Eigen::Vector4f>& Planes;
+  const Planes& OfHull;
   float Band;
   std::vector<float> Values;
-  std::vector<Eigen::Vector4f> OfBlock, OfCell;
+  Planes OfBlock, OfCell;
 };
 
 /** By how much `hull` exceeds the field beside the surface, the median. */

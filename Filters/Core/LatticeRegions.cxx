@@ -100,13 +100,40 @@ CursorsAround cursorsAround(const Octree& octree)
   return { c, c, c, c, c, c, c, c };
 }
 
-/** Join a shell corner with the octants of one state that touch it. */
+/** For each corner of the shell: which of the eight cells around it are intersection octants, a bit each. */
+std::vector<std::uint8_t> intersectionAround(const Octree& octree, const CornerShell& shell)
+{
+  std::vector<std::uint8_t> around(shell.corners.size(), 0);
+  const Generation& leaves = octree.last();
+  std::size_t leaf = 0;
+  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
+  {
+    while (leaf < leaves.size() && leaves.code[leaf] < shell.cells[cell])
+    {
+      ++leaf;
+    }
+    if (leaf < leaves.size() && leaves.code[leaf] == shell.cells[cell] && leaves.state[leaf] == OctantState::Intersection)
+    {
+      for (int c = 0; c < 8; ++c)
+      {
+        around[shell.cellCorners[cell][c]] |= std::uint8_t(1 << c);
+      }
+    }
+  }
+  return around;
+}
+
+/** Join a shell corner with the octants of one state that touch it; `others` are known to have another one. */
 void joinCornerToOctants(
-  CursorsAround& octants, const LatticePoint& p, std::uint32_t corner, OctantState state, const std::vector<std::uint8_t>& refuted,
-  LatticeRegions& regions)
+  CursorsAround& octants, const LatticePoint& p, std::uint32_t corner, std::uint8_t others, OctantState state,
+  const std::vector<std::uint8_t>& refuted, LatticeRegions& regions)
 {
   for (int n = 0; n < 8; ++n)
   {
+    if (others >> n & 1)
+    {
+      continue;
+    }
     const LatticePoint o = cornerOffset(n);
     const auto location = octants[n].locate({ p.i - o.i, p.j - o.j, p.k - o.k });
     if (location.generation >= 0 && location.state == state)
@@ -197,6 +224,7 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
   joinOctants(octree, state, !inside, refuted, regions);
   joinCorners(labels, inside, regions);
   CursorsAround octants = cursorsAround(octree);
+  const std::vector<std::uint8_t> around = intersectionAround(octree, shell);
   for (std::size_t c = 0; c < shell.corners.size(); ++c)
   {
     const LatticePoint p = fromMorton(shell.corners[c]);
@@ -206,7 +234,7 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
     }
     if ((labels.inside()[c] != 0) == inside)
     {
-      joinCornerToOctants(octants, p, std::uint32_t(c), state, refuted, regions);
+      joinCornerToOctants(octants, p, std::uint32_t(c), around[c], state, refuted, regions);
     }
   }
   return regions;
@@ -315,9 +343,10 @@ LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell)
     }
   }
   CursorsAround octants = cursorsAround(octree);
+  const std::vector<std::uint8_t> around = intersectionAround(octree, shell);
   for (std::size_t c = 0; c < shell.corners.size(); ++c)
   {
-    joinCornerToOctants(octants, fromMorton(shell.corners[c]), std::uint32_t(c), OctantState::Inside, {}, regions);
+    joinCornerToOctants(octants, fromMorton(shell.corners[c]), std::uint32_t(c), around[c], OctantState::Inside, {}, regions);
   }
   return regions;
 }

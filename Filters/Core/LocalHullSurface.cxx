@@ -307,7 +307,10 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
   const auto mended = mendTopology(labels, covering, options, surface, mending);
   added.insert(added.end(), mended.begin(), mended.end());
   std::sort(added.begin(), added.end());
-  surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
+  if (options.fillCavities && (covering.mayEnclose || !mended.empty()))
+  {
+    surface.cavitiesFilled += fillCavities(labels);
+  }
   execution.checkpoint(0.4);
   const CrossingPlacer place(labels, crossings, views, added, options.coverOffset);
   Phase contouring(execution, 0.4, 1.0);

@@ -58,8 +58,10 @@ public:
     const double slope = (q[0] - p[0]) / (q[1] - p[1]);
     for (int row = int(first); row <= int(last); ++row)
     {
-      const double column = std::ceil(p[0] + (row - p[1]) * slope);
-      this->Steps[std::size_t(row) * this->Stride + std::size_t(std::clamp(column, 0.0, double(this->Width)))] += sign;
+      const int column = int(std::clamp(std::ceil(p[0] + (row - p[1]) * slope), 0.0, double(this->Width)));
+      this->Steps[std::size_t(row) * this->Stride + std::size_t(column)] += sign;
+      this->FirstColumn = std::min(this->FirstColumn, column);
+      this->LastColumn = std::max(this->LastColumn, column);
     }
   }
 
@@ -71,10 +73,11 @@ public:
       std::int16_t* steps = &this->Steps[std::size_t(row) * this->Stride];
       std::uint8_t* pixels = &image.pixels[std::size_t(row) * std::size_t(this->Width)];
       std::int16_t count = 0;
-      for (int column = 0; column < this->Width; ++column)
+      const int end = std::min(this->LastColumn + 1, this->Width);
+      for (int column = this->FirstColumn; column < end; ++column)
       {
         std::uint64_t ahead[2];
-        while (column + 8 < this->Width && (std::memcpy(ahead, steps + column, 16), (ahead[0] | ahead[1]) == 0))
+        while (column + 8 < end && (std::memcpy(ahead, steps + column, 16), (ahead[0] | ahead[1]) == 0))
         {
           std::memset(pixels + column, count != 0, 8); // no outline here
           column += 8;
@@ -82,7 +85,8 @@ public:
         count = std::int16_t(count + steps[column]);
         pixels[column] = count != 0;
       }
-      std::fill(steps, steps + this->Stride, std::int16_t(0));
+      std::fill(pixels + end, pixels + this->Width, std::uint8_t(count != 0)); // of an outline that is not closed
+      std::fill(steps + this->FirstColumn, steps + this->LastColumn + 1, std::int16_t(0));
     }
   }
 
@@ -99,6 +103,8 @@ private:
   std::size_t Stride;
   int First = 1 << 30;
   int Last = -1;
+  int FirstColumn = 1 << 30;
+  int LastColumn = -1;
   std::vector<std::int16_t>& Steps; ///< all 0 before and after
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SilhouetteRepair.h"
 
+#include "CornerVotes.h"
 #include "SilhouetteDissent.h"
 #include "SilhouetteSpeckles.h"
 #include "UnionFind.h"
@@ -66,6 +67,27 @@ void appendRejected(const LatticeViews& views, const std::vector<std::uint64_t>&
   }
 }
 
+/** The shell's corners that one view may alone reject: all where the octree was carved from other views. */
+std::vector<std::uint64_t> onceDisputed(
+  const Octree& octree, const LatticeViews& views, const CornerShell& shell, Execution& execution)
+{
+  if (octree.fingerprint != views.prepared().fingerprint())
+  {
+    return shell.corners;
+  }
+  Unannounced voting(execution);
+  const auto votes = cornerVotes(shell, CellViews(octree, shell, views, voting), views, voting);
+  std::vector<std::uint64_t> corners;
+  for (std::size_t c = 0; c < votes.size(); ++c)
+  {
+    if (int(votes[c]) == views.size() - 1)
+    {
+      corners.push_back(shell.corners[c]);
+    }
+  }
+  return corners;
+}
+
 void sortUnique(std::vector<std::uint64_t>& codes)
 {
   std::sort(codes.begin(), codes.end());
@@ -77,15 +99,18 @@ void sortUnique(std::vector<std::uint64_t>& codes)
  * view, then by code. Breadth-first: a neighbour of one wave belongs to it, to the one before or to the next,
  * so that two waves are all that need be remembered.
  */
-std::vector<Rejected> findRejected(const LatticeViews& views, const CornerShell& shell, Execution& execution)
+std::vector<Rejected> findRejected(
+  const Octree& octree, const LatticeViews& views, const CornerShell& shell, Execution& execution)
 {
   const std::int32_t n = views.lattice().cells();
   std::vector<Rejected> rejected;
   std::vector<std::uint64_t> before, now = shell.corners, next, fresh;
+  bool isFirst = true;
   for (std::size_t done = 0; !now.empty();)
   {
     execution.checkpoint(0.0);
-    appendRejected(views, now, rejected, execution);
+    appendRejected(views, isFirst ? onceDisputed(octree, views, shell, execution) : now, rejected, execution);
+    isFirst = false;
     next.clear();
     for (; done < rejected.size(); ++done)
     {
@@ -225,12 +250,12 @@ std::vector<std::vector<std::uint64_t>> longAlongTheView(const LatticeViews& vie
 }
 
 /** The deep corners of blobs: of components that are long along the view, by view. */
-std::vector<std::vector<std::uint64_t>> findBlobs(const LatticeViews& views, const CornerShell& shell,
+std::vector<std::vector<std::uint64_t>> findBlobs(const Octree& octree, const LatticeViews& views, const CornerShell& shell,
                                                   const SurvivorBox& box,
                                                   const SilhouetteRepairOptions& options,
                                                   Execution& execution)
 {
-  std::vector<Rejected> corners = findRejected(views, shell, execution);
+  std::vector<Rejected> corners = findRejected(octree, views, shell, execution);
   std::vector<std::uint8_t> deep(corners.size(), 0);
   const double depth = std::max(options.blobDepth, FewViewsDepth / (double(views.size()) * views.size()));
   execution.forRanges(corners.size(), 1024,
@@ -324,12 +349,12 @@ std::uint64_t fillBlobs(const LatticeViews& fine, int halvings, int i,
 }
 
 /** The views with their blobs filled, or nothing where there are none; adds to `filled` by view. */
-std::optional<PreparedViews> withoutBlobs(const LatticeViews& lattice, const CornerShell& shell,
+std::optional<PreparedViews> withoutBlobs(const Octree& octree, const LatticeViews& lattice, const CornerShell& shell,
                                           const SurvivorBox& box, const SilhouetteRepairOptions& options,
                                           std::vector<std::uint64_t>& filled, Execution& execution)
 {
   const PreparedViews& views = lattice.prepared();
-  const auto blobs = findBlobs(lattice, shell, box, options, execution);
+  const auto blobs = findBlobs(octree, lattice, shell, box, options, execution);
   if (std::all_of(blobs.begin(), blobs.end(), [](const auto& corners) { return corners.empty(); }))
   {
     return std::nullopt;
@@ -381,7 +406,7 @@ SilhouetteRepair repairSilhouettes(const Octree& octree, const CornerShell& shel
     Phase phase(execution, (round + 1.0) / (MostRounds + 1), (round + 2.0) / (MostRounds + 1));
     phase.checkpoint(0.0);
     const LatticeViews now(result.views ? *result.views : views, octree.lattice);
-    auto repaired = withoutBlobs(now, shell, box, options, result.blobs, phase);
+    auto repaired = withoutBlobs(octree, now, shell, box, options, result.blobs, phase);
     if (!repaired)
     {
       break;

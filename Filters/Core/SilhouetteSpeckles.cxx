@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace silhouette
 {
@@ -36,7 +37,8 @@ std::vector<Run> runsOf(const PreparedView& view)
     for (int first = 0; first < view.width;)
     {
       const std::uint8_t value = pixels[first];
-      const std::uint8_t* end = std::find(pixels + first, pixels + view.width, std::uint8_t(1 - value));
+      const void* other = std::memchr(pixels + first, 1 - value, std::size_t(view.width - first));
+      const std::uint8_t* end = other ? static_cast<const std::uint8_t*>(other) : pixels + view.width;
       runs.push_back({row, first, int(end - pixels) - 1, value != 0});
       first = int(end - pixels);
     }

@@ -171,9 +171,10 @@ private:
 
   void add(std::uint32_t corner)
   {
+    const LatticePoint p = fromMorton(this->shell().corners[corner]);
+    this->Result.mayEnclose = this->Result.mayEnclose || this->effectOf(p) == Effect::Otherwise;
     this->Labels.setInside(corner);
     this->Result.coveringCorners.push_back(corner);
-    const LatticePoint p = fromMorton(this->shell().corners[corner]);
     std::array<std::uint32_t, 8> cells;
     const int count = this->Labels.cellsAround(p, cells);
     this->Unsettled.insert(this->Unsettled.end(), cells.begin(), cells.begin() + count);

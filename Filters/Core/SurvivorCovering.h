@@ -17,6 +17,7 @@ struct CoveringResult
 {
   std::vector<std::uint32_t> coveredCells;    ///< cells of the shell, survivors that had no inside corner; ascending
   std::vector<std::uint32_t> coveringCorners; ///< shell corners that were labelled inside, in that order
+  bool mayEnclose = false; ///< one of these may have changed more than components of the solid: there may be new cavities
 };
 
 /**

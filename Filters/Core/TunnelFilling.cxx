@@ -113,6 +113,7 @@ public:
     : Labels(labels)
     , Bricks(labels.octree().lattice, mixedCells(labels), 2 * width)
     , Values(Bricks.size(), Wide)
+    , Cursor(Bricks)
   {
     this->label(execution);
     execution.checkpoint(0.4);
@@ -124,12 +125,12 @@ public:
   std::uint64_t code(std::size_t n) const { return this->Bricks.code(n); }
   Part operator[](std::size_t n) const { return Part(this->Values[n]); }
   void take(std::size_t n) { this->Values[n] = Taken; }
-  std::ptrdiff_t find(const LatticePoint& p) const
+  std::ptrdiff_t find(const LatticePoint& p)
   {
-    return std::min({ p.i, p.j, p.k }) < 0 ? -1 : this->Bricks.find(mortonCode(p));
+    return std::min({ p.i, p.j, p.k }) < 0 ? -1 : this->Cursor.find(mortonCode(p));
   }
   /** The part of any lattice point. */
-  Part at(const LatticePoint& p) const
+  Part at(const LatticePoint& p)
   {
     const std::ptrdiff_t n = this->find(p);
     return n >= 0 ? (*this)[n] : this->Labels.insideAt(p) ? Solid : Wide;
@@ -220,6 +221,7 @@ private:
   const LatticeLabels& Labels;
   BrickField Bricks;
   std::vector<std::uint8_t> Values;
+  BrickCursor Cursor;
 };
 
 /** The six neighbours along lattice edges among the 27 points around one. */
@@ -259,7 +261,7 @@ public:
   }
 
   /** Groups of remaining points, 26-neighbours being together, each ascending. */
-  std::vector<std::vector<std::size_t>> walls() const
+  std::vector<std::vector<std::size_t>> walls()
   {
     UnionFind sets(this->Remaining.size());
     for (std::size_t r = 0; r < this->Remaining.size(); ++r)
@@ -409,7 +411,7 @@ private:
 };
 
 /** By how much the solid's Euler number rises where a wall is added to it: by 1 for each tunnel that it closes. */
-int eulerRise(const std::vector<std::size_t>& wall, const Parts& parts)
+int eulerRise(const std::vector<std::size_t>& wall, Parts& parts)
 {
   std::vector<std::uint64_t> added;
   int rise = 0;
@@ -431,7 +433,7 @@ int eulerRise(const std::vector<std::size_t>& wall, const Parts& parts)
  * Octants along the outline of a wall: that of a rectangle with the two longest sides of its box, and the solid
  * around it.
  */
-double outline(const std::vector<std::size_t>& wall, const Parts& parts)
+double outline(const std::vector<std::size_t>& wall, Parts& parts)
 {
   LatticePoint low = fromMorton(parts.code(wall.front())), high = low;
   for (const std::size_t n : wall)

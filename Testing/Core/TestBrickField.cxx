@@ -277,6 +277,25 @@ TEST(BrickField, TheContourOfASpheresDistancesIsTheSphere)
   }
 }
 
+TEST(BrickField, ACursorFindsWhatTheFieldFinds)
+{
+  const BrickField field = sphereField(5, Vector3(15.2, 16.1, 15.7), 10.4);
+  BrickCursor cursor(field);
+  Random random(10);
+  LatticePoint p{ 16, 16, 16 };
+  int missing = 0, there = 0;
+  for (int n = 0; n < 20000; ++n)
+  {
+    const auto step = [&](int x) { return std::clamp(x + random.below(5) - 2, 0, 63); };
+    p = { step(p.i), step(p.j), step(p.k) };
+    const std::ptrdiff_t found = cursor.find(mortonCode(p));
+    ASSERT_EQ(found, field.find(mortonCode(p))) << n;
+    (found < 0 ? missing : there) += 1;
+  }
+  EXPECT_GT(missing, 100);
+  EXPECT_GT(there, 100);
+}
+
 TEST(BrickField, SameBytesForAnyNumberOfThreads)
 {
   const auto make = [](Execution& execution)

@@ -96,3 +96,40 @@ TEST(Execution, EveryAlgorithmCanBeCancelledBeforeDuringAndAfter)
     },
     "classifyLocalHulls");
 }
+
+TEST(Execution, UnannouncedIsTheSameWithoutItsProgress)
+{
+  class Whole : public Execution
+  {
+  public:
+    void forRanges(std::size_t count, std::size_t, const Range& work) override
+    {
+      work(0, count / 2);
+      work(count / 2, count);
+    }
+    int threads() const override { return 7; }
+    bool cancelled() const override { return this->Stop; }
+    void progress(double) override { ++this->Told; }
+    bool Stop = false;
+    int Told = 0;
+  } whole;
+  Unannounced quiet(whole);
+  std::vector<int> seen(10, 0);
+  int ranges = 0;
+  quiet.forRanges(seen.size(), 1,
+    [&](std::size_t first, std::size_t last)
+    {
+      ++ranges;
+      for (; first < last; ++first)
+      {
+        ++seen[first];
+      }
+    });
+  EXPECT_EQ(ranges, 2);
+  EXPECT_EQ(seen, std::vector<int>(10, 1));
+  EXPECT_EQ(quiet.threads(), 7);
+  quiet.checkpoint(0.5);
+  EXPECT_EQ(whole.Told, 0);
+  whole.Stop = true;
+  EXPECT_THROW(quiet.checkpoint(0.6), Cancelled);
+}

@@ -182,6 +182,39 @@ TEST(FieldViews, AViewThatAbstainsLeavesTheWholeReach)
   }
 }
 
+TEST(FieldViews, OfABlockItIsThatOfEachPoint)
+{
+  Execution execution;
+  auto captured = viewsOf(torusMesh(48, 24, 0.75, 0.2), swayingRing(4, Size), Size);
+  captured.push_back({ "empty", captured[0].projection, captured[0].silhouette });
+  std::fill(captured.back().silhouette.pixels.begin(), captured.back().silhouette.pixels.end(), std::uint8_t(0));
+  for (const OutsidePolicy policy : { OutsidePolicy::Unknown, OutsidePolicy::Background })
+  {
+    const PreparedViews views = prepareViews(captured, policy);
+    FieldViews fieldViews(views, { unitCube(2.5), 5 }, 4.0);
+    fieldViews.addShift(1, Vector2(3.3, -2.1));
+    fieldViews.observe(allOf(fieldViews), execution);
+    int between = 0;
+    for (int block = 0; block < 512; ++block)
+    {
+      const LatticePoint lowest = fromMorton(std::uint64_t(block) * FieldViews::BlockPoints);
+      for (int view = 0; view < views.size(); ++view)
+      {
+        float inside[FieldViews::BlockPoints];
+        const auto region = fieldViews.region(view, lowest, FieldViews::BlockSize);
+        fieldViews.insideBlock(view, fieldViews.observed(view), lowest, region, inside);
+        for (std::size_t n = 0; n < FieldViews::BlockPoints; ++n)
+        {
+          const auto place = fieldViews.place(view, lowest + fromMorton(n));
+          ASSERT_EQ(inside[n], fieldViews.inside(fieldViews.observed(view), place)) << block << " " << view << " " << n;
+          between += std::abs(inside[n]) < 4.0f;
+        }
+      }
+    }
+    EXPECT_GT(between, 5000);
+  }
+}
+
 TEST(FieldViews, SameForAnyNumberOfThreads)
 {
   const PreparedViews views = sphereViews(7);

@@ -38,6 +38,47 @@ TEST(Octree, LocatesEveryCellInTheLeafThatHoldsIt)
   EXPECT_EQ(octree.locate({ 0, 32, 0 }).generation, -1);
 }
 
+TEST(Octree, ACursorFindsWhatALookFromTheRootsFinds)
+{
+  const PreparedViews prepared = prepareViews(viewsOf(sphereMesh(3, 0.9), swayingRing(8, 96), 96));
+  const Octree whole = carveViews(prepared, unitCube(), 5);
+  Octree some = whole; // only some of the trees
+  Generation& roots = some.generations[some.treeGeneration];
+  Generation kept;
+  for (std::size_t tree = 0; tree < roots.size(); tree += 2)
+  {
+    kept.code.push_back(roots.code[tree]);
+    kept.state.push_back(roots.state[tree]);
+    kept.childBlock.push_back(roots.childBlock[tree]);
+  }
+  roots = kept;
+  Random random(9);
+  for (const Octree* octree : { &whole, const_cast<const Octree*>(&some) })
+  {
+    OctantCursor cursor(*octree);
+    LatticePoint cell{ 16, 16, 16 };
+    int nowhere = 0, deep = 0;
+    for (int n = 0; n < 20000; ++n)
+    {
+      const int far = n % 50 == 0 ? 20 : 1; // a walk, and now and then a leap
+      cell = { cell.i + random.below(2 * far + 1) - far, cell.j + random.below(2 * far + 1) - far,
+        cell.k + random.below(2 * far + 1) - far };
+      if (n % 100 == 99)
+      {
+        cell = { random.below(32), random.below(32), random.below(32) };
+      }
+      const auto expected = octree->locate(cell), found = cursor.locate(cell);
+      ASSERT_EQ(found.generation, expected.generation) << n;
+      ASSERT_EQ(found.index, expected.index) << n;
+      ASSERT_EQ(found.state, expected.state) << n;
+      nowhere += found.generation < 0;
+      deep += found.generation == 5;
+    }
+    EXPECT_GT(nowhere, 100);
+    EXPECT_GT(deep, 300);
+  }
+}
+
 TEST(Octree, MortonCodesSortByOctant)
 {
   Random random(2);

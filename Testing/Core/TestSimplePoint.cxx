@@ -72,6 +72,79 @@ TEST(SimplePoint, SimpleCornersChangeNoTopologyOfTheSurface)
   EXPECT_GT(changed, 300);
 }
 
+namespace
+{
+
+/** Components of `members` by steps that change at most `step` coordinates, each by one; numbered from the first point on. */
+int floodedComponents(const Neighbourhood& members, int step, std::array<std::int8_t, 27>& number)
+{
+  number.fill(-1);
+  int count = 0;
+  for (int seed = 0; seed < 27; ++seed)
+  {
+    if (!members[seed] || number[seed] >= 0)
+    {
+      continue;
+    }
+    number[seed] = std::int8_t(count);
+    for (int pass = 0; pass < 27; ++pass)
+    {
+      for (int ab = 0; ab < 27 * 27; ++ab)
+      {
+        const int a = ab % 27, b = ab / 27;
+        const int d[3] = { a % 3 - b % 3, a / 3 % 3 - b / 3 % 3, a / 9 - b / 9 };
+        const int greatest = std::max({ std::abs(d[0]), std::abs(d[1]), std::abs(d[2]) });
+        const int sum = std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]);
+        if (number[a] == count && members[b] && greatest == 1 && sum <= step)
+        {
+          number[b] = std::int8_t(count);
+        }
+      }
+    }
+    ++count;
+  }
+  return count;
+}
+
+} // namespace
+
+/**
+ * By their definition: of the points of the centre's 18-neighbourhood, and of its corners that are beside one of these, the
+ * components through 18-neighbours.
+ */
+TEST(SimplePoint, InsideComponentsAreThoseOfTheirDefinition)
+{
+  Random random(13);
+  for (int trial = 0; trial < 3000; ++trial)
+  {
+    Neighbourhood labels{}, members{};
+    const double share = random.uniform(0.05, 0.6);
+    for (auto&& label : labels)
+    {
+      label = random.uniform() < share;
+    }
+    const auto coordinates = [](int n) { return std::array<int, 3>{ n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1 }; };
+    const auto fromCentre = [&](int n)
+    { const auto c = coordinates(n); return std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]); };
+    for (int n = 0; n < 27; ++n)
+    {
+      members[n] = n != 13 && labels[n] && fromCentre(n) <= 2;
+      for (int m = 0; m < 27 && fromCentre(n) == 3; ++m)
+      {
+        const auto a = coordinates(n), b = coordinates(m);
+        const int sum = std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
+        const int greatest = std::max({ std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2]) });
+        members[n] = members[n] ||
+          (labels[n] && labels[m] && m != 13 && fromCentre(m) <= 2 && greatest == 1 && sum <= 2);
+      }
+    }
+    std::array<std::int8_t, 27> number;
+    const auto numbers = topologicalNumbers(labels);
+    EXPECT_EQ(numbers.inside, floodedComponents(members, 2, number)) << trial;
+    EXPECT_EQ(numbers.insideComponent, number) << trial;
+  }
+}
+
 TEST(SimplePoint, KnowsTheTextbookCases)
 {
   Neighbourhood labels{};

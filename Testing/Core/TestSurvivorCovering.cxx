@@ -64,3 +64,27 @@ TEST(SurvivorCovering, GivesEverySurvivorAnInsideCornerAndEveryComponentOneSolid
     EXPECT_LE(components.size(), countSurvivorComponents(octree, execution)) << "noise " << kind;
   }
 }
+
+TEST(SurvivorCovering, SaysWhetherItMayHaveEnclosedACavity)
+{
+  Execution execution;
+  int enclosing = 0, others = 0;
+  for (int scene = 0; scene < 40; ++scene)
+  {
+    Random random(scene);
+    auto captured = viewsOf(torusMesh(48, 24, 0.75, random.uniform(0.1, 0.4)), swayingRing(7 + scene % 3, 100), 100);
+    disturb(captured, scene % 4, random);
+    const PreparedViews views = prepareViews(captured);
+    const Octree octree = carveViews(views, unitCube(), 4);
+    LatticeLabels labels(
+      octree, makeCornerShell(leafCells(octree, OctantState::Intersection), execution), views, execution);
+    fillCavities(labels);
+    const CoveringResult result = coverSurvivors(labels, {}, 0);
+    others += !result.coveringCorners.empty() && !result.mayEnclose;
+    enclosing += result.mayEnclose;
+    const std::uint64_t cavities = fillCavities(labels);
+    EXPECT_TRUE(result.mayEnclose || cavities == 0) << scene << ": " << cavities;
+  }
+  EXPECT_GT(others, 5);
+  EXPECT_GT(enclosing, 5);
+}
