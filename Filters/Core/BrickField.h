@@ -55,8 +55,8 @@ private:
 };
 
 /**
- * BrickField::find() for points near one another: the bricks found last are remembered, eight, as many as meet in a point. Not for several threads
- * at once. The field has to outlive it.
+ * BrickField::find() for points near one another: the bricks found last are remembered, eight, as many as meet in a
+ * point. Not for several threads at once. The field has to outlive it.
  */
 class BrickCursor
 {

@@ -16,6 +16,7 @@ namespace silhouette
 namespace
 {
 
+constexpr std::size_t MostKept = std::size_t(1) << 24; ///< pixels: memory for larger images is given back
 constexpr double NearShare = 1e-6; ///< of the greatest w: nearer points are renderSilhouette()'s to cut off
 
 /** One directed edge of a triangle, kept at its lower end. */
@@ -87,6 +88,10 @@ public:
       }
       std::fill(pixels + end, pixels + this->Width, std::uint8_t(count != 0)); // of an outline that is not closed
       std::fill(steps + this->FirstColumn, steps + this->LastColumn + 1, std::int16_t(0));
+    }
+    if (this->Steps.size() > MostKept)
+    {
+      std::vector<std::int16_t>().swap(this->Steps);
     }
   }
 

@@ -109,8 +109,15 @@ std::vector<Rejected> findRejected(
   for (std::size_t done = 0; !now.empty();)
   {
     execution.checkpoint(0.0);
-    appendRejected(views, isFirst ? onceDisputed(octree, views, shell, execution) : now, rejected, execution);
-    isFirst = false;
+    if (isFirst)
+    {
+      appendRejected(views, onceDisputed(octree, views, shell, execution), rejected, execution);
+      isFirst = false;
+    }
+    else
+    {
+      appendRejected(views, now, rejected, execution);
+    }
     next.clear();
     for (; done < rejected.size(); ++done)
     {
