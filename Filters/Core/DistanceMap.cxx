@@ -405,12 +405,12 @@ DistanceMap distanceMap(const std::uint8_t* object, int width, int height, doubl
 }
 
 DistancesOnDemand::DistancesOnDemand(const std::uint8_t* object, int width, int height, double reach)
-  : Frame(std::make_unique<DistanceFrame>(frameOf(object, width, height, reach)))
+  : Frame(frameOf(object, width, height, reach))
 {
-  if (this->Frame->columns > 0)
+  if (this->Frame.columns > 0)
   {
-    this->Transform = std::make_unique<DistanceTransform>(object, *this->Frame);
-    this->Known.assign(std::size_t(this->Frame->rows) * this->Transform->pieces(), -1);
+    this->Transform = std::make_unique<DistanceTransform>(object, this->Frame);
+    this->Known.assign(std::size_t(this->Frame.rows) * this->Transform->pieces(), -1);
   }
 }
 
@@ -419,8 +419,8 @@ DistancesOnDemand::~DistancesOnDemand() = default;
 float DistancesOnDemand::at(double u, double v)
 {
   return this->Transform
-    ? this->Frame->interpolate(u, v, [this](int row, int column) { return this->pixel(row, column); })
-    : -this->Frame->reach;
+    ? this->Frame.interpolate(u, v, [this](int row, int column) { return this->pixel(row, column); })
+    : -this->Frame.reach;
 }
 
 float DistancesOnDemand::pixel(int row, int column)

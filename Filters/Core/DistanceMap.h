@@ -91,7 +91,7 @@ public:
 private:
   float pixel(int row, int column);
 
-  std::unique_ptr<DistanceFrame> Frame;
+  DistanceFrame Frame;
   std::unique_ptr<DistanceTransform> Transform; ///< none where there is no object
   std::vector<std::int32_t> Known;              ///< for each piece of a row where its pixels are, or -1
   std::vector<float> Values;

@@ -196,7 +196,8 @@ private:
             this->Views.insideBlock(view, this->Views.observed(view), lowest, near[i].region, distance);
             keepLeast(distance, least, second);
           }
-          for (std::size_t n = 0; n < BlockPoints && this->touchesBorder(lowest); ++n)
+          const bool atBorder = this->touchesBorder(lowest);
+          for (std::size_t n = 0; n < BlockPoints && atBorder; ++n)
           {
             if (this->Views.lattice().onBorder(lowest + fromMorton(n)))
             {

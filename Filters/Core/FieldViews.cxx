@@ -132,6 +132,12 @@ void FieldViews::observe(const std::vector<int>& views, Execution& execution)
     });
 }
 
+DistancesOnDemand FieldViews::observedOnDemand(int view) const
+{
+  const PreparedView& seen = (*this->Views)[view];
+  return DistancesOnDemand(seen.silhouette(), seen.width, seen.height, this->reachInPixels(view));
+}
+
 double FieldViews::reachInPixels(int view) const
 {
   return 1.25 * this->Reach * this->CentreScale[view]; // octants nearer to the camera than the middle are larger

@@ -30,9 +30,8 @@ public:
   /** The observed silhouette's distances; observe() has made them. */
   const DistanceMap& observed(int view) const { return this->Observed[view]; }
   bool isObserved(int view) const { return this->Observed[view].width > 0; }
-  /** px: observed distances are exact up to here. */
-  double reachInPixels(int view) const;
-  const PreparedView& view(int view) const { return (*this->Views)[view]; }
+  /** The same distances for whoever asks about few places; of any view. */
+  DistancesOnDemand observedOnDemand(int view) const;
 
   /** The silhouettes of a mesh, as the views (shifted) would see it: one image for each view asked for. */
   std::vector<BinaryImage> render(const Mesh& mesh, const std::vector<int>& views, Execution& execution) const;
@@ -87,6 +86,8 @@ public:
 
 private:
   void project(int view);
+  /** px: observed distances are exact up to here. */
+  double reachInPixels(int view) const;
 
   const PreparedViews* Views;
   Lattice TheLattice;

@@ -150,12 +150,9 @@ std::vector<ContourResidual> contourResiduals(
         const double scale = fieldViews.pixelsPerOctant(views[i]);
         // One image at a time: its memory serves the next.
         const BinaryImage image = fieldViews.render(renderer, views[i]);
-        const PreparedView& view = fieldViews.view(views[i]);
         residuals[i] = fieldViews.isObserved(views[i])
           ? compare(image, fieldViews.observed(views[i]), limit * scale, scale)
-          : compare(image,
-              DistancesOnDemand(view.silhouette(), view.width, view.height, fieldViews.reachInPixels(views[i])),
-              limit * scale, scale);
+          : compare(image, fieldViews.observedOnDemand(views[i]), limit * scale, scale);
       }
     });
   return residuals;

@@ -265,13 +265,20 @@ public:
 
   ///@{
   /**
-   * CorrectField: silhouettes whose deficit (default 0.035) and whose contours' mean shift against the surface's
-   * (default 0.025) are at most this are taken as they are; leaf octants, at least 0. Cameras' errors raise the
-   * shift before the deficit: it counts from half of SmallestDeficit on, and if it is more than a tenth of a
-   * pixel. Larger corrects less.
+   * CorrectField: silhouettes whose deficit is at most this, and whose shift is small too, are taken as they are;
+   * leaf octants, at least 0, default 0.035. Larger corrects less.
    */
   vtkSetMacro(SmallestDeficit, double);
   vtkGetMacro(SmallestDeficit, double);
+  ///@}
+
+  ///@{
+  /**
+   * CorrectField: silhouettes whose contours' mean shift against the surface's is at most this, and whose deficit
+   * is small too, are taken as they are; leaf octants, at least 0, default 0.025. Cameras' errors raise it before
+   * the deficit. It counts from half of SmallestDeficit on, and if it is more than a tenth of a pixel. Larger
+   * corrects less.
+   */
   vtkSetMacro(SmallestShift, double);
   vtkGetMacro(SmallestShift, double);
   ///@}

@@ -136,13 +136,14 @@ public:
   ///@}
 
   ///@{
-  /**
-   * The same box by its lowest corner and its edges, as box widgets have it; default -1 and 2 each. Either keeps the
-   * other.
-   */
+  /** The same box by its lowest corner, as box widgets have it; the edges stay. Default -1 each. */
   void SetBoundsOrigin(double x, double y, double z);
   void SetBoundsOrigin(const double origin[3]) { this->SetBoundsOrigin(origin[0], origin[1], origin[2]); }
   void GetBoundsOrigin(double origin[3]);
+  ///@}
+
+  ///@{
+  /** The same box by its edges; the lowest corner stays. Default 2 each. */
   void SetBoundsSize(double x, double y, double z);
   void SetBoundsSize(const double size[3]) { this->SetBoundsSize(size[0], size[1], size[2]); }
   void GetBoundsSize(double size[3]);

@@ -84,9 +84,13 @@ public:
   ///@}
 
   ///@{
-  /** Size of the images, pixels, 1 to 16384, default 1024. Larger is finer. */
+  /** Width of the images, pixels, 1 to 16384, default 1024. Larger is finer. */
   vtkSetMacro(Width, int);
   vtkGetMacro(Width, int);
+  ///@}
+
+  ///@{
+  /** Height of the images, pixels, 1 to 16384, default 1024. Larger is finer. */
   vtkSetMacro(Height, int);
   vtkGetMacro(Height, int);
   ///@}

@@ -4,10 +4,10 @@
     growth.py CAPTURE [--key CHANNEL:EXCESS] [--depths 7-11] [--pieces N]
     growth.py CAPTURE [--key CHANNEL:EXCESS] --depths 10 --ranks 1,2,4,8
 
-Views include a carve to depth 6. With --pieces the octree is made in pieces, one after another, and no surface is kept. With --ranks every piece of each of these
-numbers is made by a process of its own, as the ranks of an MPI run would, one after another so that they do not disturb each
-other: what the slowest takes is what the run would. The package vtksilhouette has to be on Python's path; memory is the operating
-system's account of the process.
+Views include a carve to depth 6. With --pieces the octree is made in pieces, one after another, and no surface is kept.
+With --ranks every piece of each of these numbers is made by a process of its own, as the ranks of an MPI run would, one
+after another so that they do not disturb each other: what the slowest takes is what the run would. The package
+vtksilhouette has to be on Python's path; memory is the operating system's account of the process.
 """
 import argparse
 import json

@@ -82,7 +82,7 @@ void expectBruteForce(const BinaryImage& image, std::initializer_list<double> re
     for (int p = 0; p < image.width * image.height; ++p)
     {
       const double found = map.at(p % image.width, p / image.width);
-      wrong += std::abs(found - std::clamp(expected[p], -reach, reach)) > 1e-4;
+      wrong += !(std::abs(found - std::clamp(expected[p], -reach, reach)) <= 1e-4); // no number is wrong, too
     }
     EXPECT_EQ(wrong, 0) << what << ", reach " << reach;
   }
@@ -103,6 +103,20 @@ TEST(DistanceMap, IsThatToTheNearestPixelOfTheOtherKind)
       expectBruteForce(image, { 1.0, 2.5, 6.0, 40.0 }, what);
     }
   }
+}
+
+/** Squares of distances fit into sixteen bits up to 127 pixels; others are longer. */
+TEST(DistanceMap, HoldsOnBothSidesOfWhatFitsIntoSixteenBits)
+{
+  Random random(4);
+  for (const std::uint8_t value : { 0, 1 })
+  {
+    BinaryImage wide = blank(460, 24, value); // in its middle nothing is near, in no column and in no row
+    wide.at(3, 5) ^= 1;
+    wide.at(455, 15) ^= 1;
+    expectBruteForce(wide, { 100.0, 125.5, 126.0, 127.0, 140.0 }, "two pixels");
+  }
+  expectBruteForce(randomMask(420, 20, random), { 100.0, 125.5, 126.0, 127.0, 140.0 }, "a wide image");
 }
 
 TEST(DistanceMap, HoldsForEveryPlaceOfASinglePixel)

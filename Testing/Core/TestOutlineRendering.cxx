@@ -72,6 +72,27 @@ TEST(OutlineRendering, SeesFromInsideAndFromInfinity)
   EXPECT_LE(differing(renderer.render(parallel, 101, 101), expected), 8u); // by symmetry, points lie on rows
 }
 
+TEST(OutlineRendering, NoImageShowsInTheNext)
+{
+  SyntheticShapeOptions options;
+  options.refinement = 0.5;
+  const Mesh mesh = syntheticShape(SyntheticShape::Torus, options);
+  const OutlineRenderer renderer(mesh);
+  const int sizes[][2] = { { 160, 120 }, { 37, 90 }, { 200, 50 }, { 160, 120 } };
+  for (const auto& size : sizes)
+  {
+    Projection projection = syntheticCameras(mesh, 4, size[0], size[1])[1];
+    for (const double shift : { 0.0, 0.4, -0.4 }) // cut by neither side, by the right one, by the left one
+    {
+      Projection moved = projection;
+      moved.row(0) += shift * size[0] * projection.row(2);
+      const BinaryImage expected = renderSilhouette(mesh, moved, size[0], size[1]);
+      EXPECT_GT(objectPixels(expected), 50u);
+      EXPECT_LE(differing(renderer.render(moved, size[0], size[1]), expected), 1u) << size[0] << " " << shift;
+    }
+  }
+}
+
 TEST(OutlineRendering, RefusesWhatCannotBeRendered)
 {
   const Mesh bad{ { { 0, 0, 0 } }, { { 0, 1, 2 } } };

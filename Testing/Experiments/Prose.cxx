@@ -106,7 +106,8 @@ const char* const Scaling = R"(
 The ratio of the local hulls' error to exact marching cubes', without noise and under contour noise of half an octant of the
 depth. The constants are shares or octants, so that the ratio is to stay where an octant is at least two pixels
 wide; in the middle of an image of 512 pixels it is 7.5 pixels at depth 6 and 0.9 at depth 9. It stays over the
-sizes of images, and rises with the depth: what is corrected of half an octant is less the finer the octants are.
+sizes of images. It does not stay over the depths, but rises; one cause may be that the noise is smooth over 6 of
+1024 pixels whatever the depth, which is ever more octants.
 )";
 
 const char* const Islands = R"(

@@ -25,6 +25,20 @@ class TestImport(unittest.TestCase):
                 self.assertIn("port", getattr(vtksilhouette, name).__doc__)
         self.assertIn("numpy_front", vtksilhouette.__doc__)
 
+    def test_every_setting_says_what_it_does(self):
+        settings = 0
+        for name in filter(lambda name: name.startswith("vtk"), vtksilhouette.__all__):
+            filter_class = getattr(vtksilhouette, name)
+            for setter in vars(filter_class):
+                if not setter.startswith("Set") or not hasattr(filter_class, "G" + setter[1:]):
+                    continue
+                with self.subTest(name + "." + setter):
+                    settings += 1
+                    lines = getattr(filter_class, setter).__doc__.splitlines()
+                    # help() begins with the Python and the C++ signatures.
+                    self.assertTrue([line for line in lines if line.strip() and not line.startswith((setter, "C++"))])
+        self.assertGreater(settings, 60)
+
     def test_renders_only_when_asked(self):
         self.assertNotIn("vtkmodules.vtkRenderingOpenGL2", sys.modules)
 
