@@ -6,26 +6,65 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace silhouette
 {
 namespace
 {
 
-/** Half of a Gaussian's weights, from the middle, that add up to 1 over both halves. */
-std::vector<float> gaussian(double sigma)
+/** Half of a symmetric kernel: the weights at 0, 1, 2, ... */
+using HalfKernel = std::vector<double>;
+
+double weightAt(const HalfKernel& kernel, int i)
 {
-  const int radius = std::max(1, int(std::ceil(3.0 * sigma)));
-  std::vector<float> kernel;
-  double sum = 0.0;
-  for (int i = 0; i <= radius; ++i)
+  const auto place = std::size_t(std::abs(i));
+  return place < kernel.size() ? kernel[place] : 0.0;
+}
+
+double sumOf(const HalfKernel& kernel)
+{
+  return 2.0 * std::accumulate(kernel.begin(), kernel.end(), 0.0) - kernel.front();
+}
+
+double secondMoment(const HalfKernel& kernel)
+{
+  double moment = 0.0;
+  for (std::size_t i = 1; i < kernel.size(); ++i)
   {
-    kernel.push_back(float(std::exp(-0.5 * i * i / (sigma * sigma))));
-    sum += (i == 0 ? 1.0 : 2.0) * kernel.back();
+    moment += 2.0 * double(i * i) * kernel[i];
   }
-  for (float& weight : kernel)
+  return moment;
+}
+
+/**
+ * A Gaussian g would draw a curved surface towards its inner side, by half of sigma squared times the curvature; in a g - b g * g
+ * the two draw alike. a and b: the weights add up to 1, their second moment is 0.
+ */
+std::vector<float> keepingKernel(double sigma)
+{
+  constexpr double Narrow = 3.0, Wide = 4.5; // standard deviations up to which the Gaussian and the whole are taken
+  HalfKernel gaussian(std::size_t(std::max(1.0, std::ceil(Narrow * sigma))) + 1);
+  for (std::size_t i = 0; i < gaussian.size(); ++i)
   {
-    weight = float(weight / sum);
+    gaussian[i] = std::exp(-0.5 * double(i * i) / (sigma * sigma));
+  }
+  HalfKernel twice(std::size_t(std::max(2.0, std::ceil(Wide * sigma))) + 1, 0.0);
+  const int radius = int(gaussian.size()) - 1;
+  for (std::size_t i = 0; i < twice.size(); ++i)
+  {
+    for (int j = -radius; j <= radius; ++j)
+    {
+      twice[i] += weightAt(gaussian, j) * weightAt(gaussian, int(i) - j);
+    }
+  }
+  const double moment = secondMoment(twice);
+  const double share = moment > 0.0 ? secondMoment(gaussian) / moment : 0.0; // b / a; 0 where sigma is next to none
+  const double a = 1.0 / (sumOf(gaussian) - share * sumOf(twice));
+  std::vector<float> kernel(twice.size());
+  for (std::size_t i = 0; i < kernel.size(); ++i)
+  {
+    kernel[i] = float(a * (weightAt(gaussian, int(i)) - share * twice[i]));
   }
   return kernel;
 }
@@ -235,7 +274,7 @@ void BrickField::smooth(double sigma, Execution& execution)
   {
     return;
   }
-  const std::vector<float> kernel = gaussian(sigma);
+  const std::vector<float> kernel = keepingKernel(sigma);
   for (int axis = 0; axis < 3; ++axis)
   {
     this->smoothAlong(axis, kernel, execution);

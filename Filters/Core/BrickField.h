@@ -39,7 +39,10 @@ public:
   /** Index of a point, or -1. */
   std::ptrdiff_t find(std::uint64_t point) const;
 
-  /** Gaussian smoothing of standard deviation `sigma` octants; where bricks end the last value goes on. */
+  /**
+   * Smoothing that draws no curved surface inwards: along each axis a Gaussian of standard deviation `sigma` octants, less a share of itself smoothed
+   * once more, so that polynomials up to the third degree stay. Where bricks end the last value goes on. Cost: 9 sigma values for each and axis.
+   */
   void smooth(double sigma, Execution& execution);
   /** Codes of the leaf cells that have corners of both signs, ascending; a value of 0 is outside. */
   std::vector<std::uint64_t> mixedCells(Execution& execution) const;

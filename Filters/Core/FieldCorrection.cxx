@@ -151,7 +151,8 @@ private:
     Mesh model = this->Surface;
     for (int round = 0; round < this->Options.alignments; ++round)
     {
-      const auto residuals = contourResiduals(this->Views, model, this->All, this->limit(), execution);
+      auto residuals = contourResiduals(this->Views, model, this->All, this->limit(), execution);
+      removeCommonShift(this->Views, this->All, residuals);
       for (const int view : this->All)
       {
         this->Views.addShift(view, residuals[view].shift);

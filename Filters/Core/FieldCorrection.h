@@ -41,9 +41,9 @@ struct FieldCorrectionOptions
    * Octants for each octant of deficit, 0 or more: standard deviation of the field's smoothing; larger is
    * smoother.
    */
-  double smoothing = 5.0;
+  double smoothing = 10.0;
   /** Octants at depth 7, in proportion to 2^depth, 0 or more: the largest standard deviation of the smoothing. */
-  double greatestSmoothing = 2.0;
+  double greatestSmoothing = 3.0;
   /**
    * Octants for each octant of deficit, 0 or more: the most that smoothing changes a value, so that thin parts
    * stay; larger smooths more.

@@ -13,19 +13,6 @@ namespace silhouette
 namespace
 {
 
-/** How many pixels a step of one octant across the view moves a point: the root of the mean over u and v. */
-double scaleAt(const LatticeProjection& projection, const HomogeneousPixel& h)
-{
-  const double u = h.U / h.W, v = h.V / h.W;
-  double square = 0.0;
-  for (const auto& step : projection.step)
-  {
-    const double du = step[0] - u * step[2], dv = step[1] - v * step[2];
-    square += 0.5 * (du * du + dv * dv);
-  }
-  return std::sqrt(square) / h.W;
-}
-
 constexpr int Points = int(FieldViews::BlockPoints);
 
 /** The points of a block, from its lowest on, in Morton order. */
@@ -109,10 +96,16 @@ FieldViews::FieldViews(const PreparedViews& views, const Lattice& lattice, doubl
     const HomogeneousPixel h = this->OnLattice[view]({ middle, middle, middle });
     if (h.W > this->OnLattice[view].minimumDepth)
     {
-      this->CentreScale[view] = scaleAt(this->OnLattice[view], h);
+      this->CentreScale[view] = silhouette::pixelsPerOctant(this->OnLattice[view], { middle, middle, middle });
       this->DepthScale[view] = 1.0 / (h.W * this->CentreScale[view]);
     }
   }
+}
+
+Eigen::Matrix<double, 2, 3> FieldViews::pixelSteps(int view) const
+{
+  const int middle = this->TheLattice.cells() / 2;
+  return silhouette::pixelSteps(this->OnLattice[view], { middle, middle, middle });
 }
 
 void FieldViews::observe(const std::vector<int>& views, Execution& execution)

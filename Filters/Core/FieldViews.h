@@ -46,6 +46,9 @@ public:
   /** Pixels for an octant at the lattice's centre of interest. */
   double pixelsPerOctant(int view) const { return this->CentreScale[view]; }
 
+  /** Pixels, u and v, for a step of one octant along each axis there; 0 for a view that has it behind it. */
+  Eigen::Matrix<double, 2, 3> pixelSteps(int view) const;
+
   /** Where a lattice point falls. */
   struct Place
   {

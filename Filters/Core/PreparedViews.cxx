@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include <cmath>
 #include <cstring>
 
 namespace silhouette
@@ -218,6 +219,24 @@ LatticeProjection::LatticeProjection(const Projection& projection, const Lattice
   }
   // Nearer to the camera's plane than this, a pixel could not be told to within the guard of the octant test.
   this->minimumDepth = 1e-4 * reach;
+}
+
+Eigen::Matrix<double, 2, 3> pixelSteps(const LatticeProjection& projection, const LatticePoint& p)
+{
+  Eigen::Matrix<double, 2, 3> steps = Eigen::Matrix<double, 2, 3>::Zero();
+  const HomogeneousPixel h = projection(p);
+  for (int axis = 0; axis < 3 && h.W > projection.minimumDepth; ++axis)
+  {
+    const auto& step = projection.step[std::size_t(axis)];
+    steps(0, axis) = (step[0] - h.U / h.W * step[2]) / h.W;
+    steps(1, axis) = (step[1] - h.V / h.W * step[2]) / h.W;
+  }
+  return steps;
+}
+
+double pixelsPerOctant(const LatticeProjection& projection, const LatticePoint& p)
+{
+  return std::sqrt(0.5 * pixelSteps(projection, p).squaredNorm()); // of the three directions that share it, two lie across
 }
 
 LatticeViews::LatticeViews(const PreparedViews& views, const Lattice& lattice)

@@ -154,6 +154,11 @@ struct LatticeProjection
   }
 };
 
+/** Pixels, u and v, that a step of one octant along each axis moves a lattice point; 0 where it is behind the camera. */
+Eigen::Matrix<double, 2, 3> pixelSteps(const LatticeProjection& projection, const LatticePoint& p);
+/** Pixels that an octant at a lattice point measures across the line of sight; 0 where it is behind the camera. */
+double pixelsPerOctant(const LatticeProjection& projection, const LatticePoint& p);
+
 /** The prepared views together with their projections of one lattice. */
 class LatticeViews
 {

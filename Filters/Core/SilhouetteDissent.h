@@ -40,24 +40,6 @@ inline SurvivorBox boxOfSurvivors(const CornerShell& shell)
   return box;
 }
 
-/** Pixels that a lattice step measures across the line of sight; 0 behind the camera. */
-inline double pixelsPerOctant(const LatticeProjection& projection, const LatticePoint& p)
-{
-  const auto h = projection(p);
-  if (!(h.W > projection.minimumDepth))
-  {
-    return 0.0;
-  }
-  double squares = 0.0;
-  for (const auto& step : projection.step)
-  {
-    const double u = (step[0] - h.U / h.W * step[2]) / h.W;
-    const double v = (step[1] - h.V / h.W * step[2]) / h.W;
-    squares += u * u + v * v;
-  }
-  return std::sqrt(0.5 * squares); // of the three directions that share them, two lie across
-}
-
 /** The views as they came. */
 inline std::vector<View> copyViews(const PreparedViews& views)
 {

@@ -5,6 +5,7 @@
 #include "OutlineRendering.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -156,6 +157,36 @@ std::vector<ContourResidual> contourResiduals(
       }
     });
   return residuals;
+}
+
+Vector3 removeCommonShift(
+  const FieldViews& fieldViews, const std::vector<int>& views, std::vector<ContourResidual>& residuals)
+{
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Vector3 right = Vector3::Zero();
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    if (residuals[i].count > 0)
+    {
+      const auto steps = fieldViews.pixelSteps(views[i]);
+      normal += steps.transpose() * steps;
+      right += steps.transpose() * residuals[i].shift;
+    }
+  }
+  const Eigen::FullPivLU<Eigen::Matrix3d> solver(normal);
+  if (!solver.isInvertible())
+  {
+    return Vector3::Zero();
+  }
+  const Vector3 move = solver.solve(right);
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    if (residuals[i].count > 0)
+    {
+      residuals[i].shift -= fieldViews.pixelSteps(views[i]) * move;
+    }
+  }
+  return move;
 }
 
 double typicalResidual(const std::vector<ContourResidual>& residuals)

@@ -28,6 +28,14 @@ struct ContourResidual
 std::vector<ContourResidual> contourResiduals(
   const FieldViews& fieldViews, const Mesh& surface, const std::vector<int>& views, double limit, Execution& execution);
 
+/**
+ * Take from the views' shifts what a move of the whole object would do to them: it cannot be seen, and what noise makes of it would carry
+ * the surface off. `residuals` are of the given views; those without places neither count nor change. Returns the move, in octants, by
+ * least squares over the views; 0 where they do not tell all three axes.
+ */
+Vector3 removeCommonShift(
+  const FieldViews& fieldViews, const std::vector<int>& views, std::vector<ContourResidual>& residuals);
+
 /** The mean of the residuals' means, by count; octants. */
 double typicalResidual(const std::vector<ContourResidual>& residuals);
 

@@ -295,7 +295,7 @@ public:
   ///@{
   /**
    * CorrectField: standard deviation of the field's smoothing, for each octant of deficit; leaf octants, at
-   * least 0, default 5. Larger is smoother.
+   * least 0, default 10. Larger is smoother.
    */
   vtkSetMacro(Smoothing, double);
   vtkGetMacro(Smoothing, double);
@@ -304,7 +304,7 @@ public:
   ///@{
   /**
    * CorrectField: the smoothing's largest standard deviation at depth 7, in proportion to 2^depth for others;
-   * leaf octants, at least 0, default 2. Larger is smoother where the silhouettes are worst.
+   * leaf octants, at least 0, default 3. Larger is smoother where the silhouettes are worst.
    */
   vtkSetMacro(GreatestSmoothing, double);
   vtkGetMacro(GreatestSmoothing, double);

@@ -159,6 +159,57 @@ TEST(ViewAlignment, NothingIsSaidOfWhatIsThinOrFarAway)
   }
 }
 
+TEST(ViewAlignment, WhatAMoveOfTheObjectDoesToTheViewsIsTakenFromTheirShifts)
+{
+  Execution execution;
+  const Mesh mesh = coarse(SyntheticShape::Jug);
+  const PreparedViews views = shiftedViews(mesh, {});
+  const FieldViews fieldViews(views, { unitCube(1.05), 6 }, 5.0);
+  // The pixels of a move, by projecting the lattice's middle and its neighbours.
+  const auto movedBy = [&](int view, const Vector3& octants)
+  {
+    const auto at = [&](int i, int j, int k) { return fieldViews.place(view, { 32 + i, 32 + j, 32 + k }); };
+    const auto step = [&](const FieldViews::Place& to, const FieldViews::Place& from)
+    { return Vector2(0.5 * (to.u - from.u), 0.5 * (to.v - from.v)); };
+    return Vector2(octants[0] * step(at(1, 0, 0), at(-1, 0, 0)) + octants[1] * step(at(0, 1, 0), at(0, -1, 0)) +
+      octants[2] * step(at(0, 0, 1), at(0, 0, -1)));
+  };
+  const Vector3 move(0.4, -0.7, 0.2);
+  const auto own = randomShifts(5, 1.0);
+  std::vector<ContourResidual> residuals(Views), kept(Views);
+  for (int view = 0; view < Views; ++view)
+  {
+    kept[view] = { 100, 0.1, own[view] };
+    residuals[view] = { 100, 0.1, own[view] + movedBy(view, move) };
+  }
+  residuals[3].count = kept[3].count = 0; // says nothing
+  const Vector2 silent = residuals[3].shift;
+  const Vector3 inKept = removeCommonShift(fieldViews, all(), kept);
+  const Vector3 found = removeCommonShift(fieldViews, all(), residuals);
+  EXPECT_LT((found - inKept - move).norm(), 1e-3) << found.transpose();
+  EXPECT_GT(inKept.norm(), 0.01); // random shifts have a common part as well
+  for (int view = 0; view < Views; ++view)
+  {
+    EXPECT_LT((residuals[view].shift - kept[view].shift).norm(), view == 3 ? 10.0 : 2e-3) << view;
+    EXPECT_EQ(residuals[view].mean, 0.1);
+  }
+  EXPECT_EQ(residuals[3].shift, silent);
+  const Vector3 again = removeCommonShift(fieldViews, all(), residuals); // nothing is left of it
+  EXPECT_LT(again.norm(), 1e-12);
+}
+
+TEST(ViewAlignment, OneViewTellsNoMoveOfTheObject)
+{
+  const PreparedViews views = shiftedViews(torusMesh(24, 12, 0.6, 0.25), {});
+  const FieldViews fieldViews(views, { unitCube(1.05), 6 }, 5.0);
+  std::vector<ContourResidual> residuals{ { 100, 0.0, Vector2(1.0, 2.0) } };
+  EXPECT_EQ(removeCommonShift(fieldViews, { 4 }, residuals), Vector3(0.0, 0.0, 0.0));
+  EXPECT_EQ(residuals[0].shift, Vector2(1.0, 2.0));
+  residuals.assign(Views, { 0, 0.0, Vector2(1.0, 2.0) });
+  EXPECT_EQ(removeCommonShift(fieldViews, all(), residuals), Vector3(0.0, 0.0, 0.0));
+  EXPECT_EQ(residuals[5].shift, Vector2(1.0, 2.0));
+}
+
 TEST(ViewAlignment, TheTypicalResidualIsTheMeanByCount)
 {
   EXPECT_EQ(typicalResidual({}), 0.0);
