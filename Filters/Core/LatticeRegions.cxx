@@ -123,10 +123,29 @@ std::vector<std::uint8_t> intersectionAround(const Octree& octree, const CornerS
   return around;
 }
 
-/** Join a shell corner with the octants of one state that touch it; `others` are known to have another one. */
-void joinCornerToOctants(
-  CursorsAround& octants, const LatticePoint& p, std::uint32_t corner, std::uint8_t others, OctantState state,
-  const std::vector<std::uint8_t>& refuted, LatticeRegions& regions)
+/**
+ * Join an outside corner of a background octant that a field's solid reaches into: not all of its points meet in it, so with what lies beside the
+ * corner along lattice edges, a corner of the shell or, standing for all other points outside, the octant.
+ */
+void joinWithinOctant(const LatticeLabels& labels, const LatticePoint& p, std::uint32_t corner, std::uint32_t octant,
+  const LatticePoint& lowest, std::int32_t size, LatticeRegions& regions)
+{
+  constexpr int Adjacent[6] = { 4, 10, 12, 14, 16, 22 };
+  const auto within = [size](std::int32_t x, std::int32_t low) { return x >= low && x <= low + size; };
+  for (const int n : Adjacent)
+  {
+    const LatticePoint q = neighbourOf(p, n);
+    if (within(q.i, lowest.i) && within(q.j, lowest.j) && within(q.k, lowest.k) && !labels.insideAt(q))
+    {
+      const std::ptrdiff_t other = labels.shell().find(mortonCode(q));
+      regions.sets.unite(corner, other >= 0 ? std::uint32_t(other) : octant);
+    }
+  }
+}
+
+/** Call `meet(location)` for the octants of one state that touch a lattice point; `others` are known to have another one. */
+template <typename Meet>
+void forOctantsAround(CursorsAround& octants, const LatticePoint& p, std::uint8_t others, OctantState state, const Meet& meet)
 {
   for (int n = 0; n < 8; ++n)
   {
@@ -138,11 +157,7 @@ void joinCornerToOctants(
     const auto location = octants[n].locate({ p.i - o.i, p.j - o.j, p.k - o.k });
     if (location.generation >= 0 && location.state == state)
     {
-      const std::size_t octant = regions.firstOctant[location.generation] + location.index;
-      if (refuted.empty() || !refuted[octant - regions.firstOctant[0]])
-      {
-        regions.sets.unite(corner, std::uint32_t(octant));
-      }
+      meet(location);
     }
   }
 }
@@ -185,6 +200,33 @@ std::vector<std::uint8_t> refutedOctants(const LatticeLabels& labels, OctantStat
   return refuted;
 }
 
+/** Background octants of several leaf cells with an inside corner of the shell among their points; nothing where the labels have no field. */
+std::vector<std::uint8_t> enteredOctants(const LatticeLabels& labels, const LatticeRegions& regions)
+{
+  std::vector<std::uint8_t> entered;
+  if (!labels.field())
+  {
+    return entered;
+  }
+  entered.resize(regions.beyond - regions.firstOctant[0], 0);
+  CursorsAround octants = cursorsAround(labels.octree());
+  for (std::size_t c = 0; c < labels.shell().corners.size(); ++c)
+  {
+    if (labels.inside()[c])
+    {
+      forOctantsAround(octants, fromMorton(labels.shell().corners[c]), 0, OctantState::Background,
+        [&](const Octree::Location& at)
+        {
+          if (at.generation < labels.octree().lattice.depth)
+          {
+            entered[regions.firstOctant[at.generation] + at.index - regions.firstOctant[0]] = 1;
+          }
+        });
+    }
+  }
+  return entered;
+}
+
 /** The diagonals of a cell's faces, as corner pairs. */
 constexpr std::uint8_t FaceDiagonals[12][2] = { { 0, 6 }, { 2, 4 }, { 1, 7 }, { 3, 5 }, { 0, 5 }, { 1, 4 },
   { 2, 7 }, { 3, 6 }, { 0, 3 }, { 1, 2 }, { 4, 7 }, { 5, 6 } };
@@ -221,6 +263,7 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
   const OctantState state = inside ? OctantState::Inside : OctantState::Background;
   LatticeRegions regions = emptyRegions(octree, shell.corners.size());
   const std::vector<std::uint8_t> refuted = refutedOctants(labels, state);
+  const std::vector<std::uint8_t> entered = inside ? std::vector<std::uint8_t>() : enteredOctants(labels, regions);
   joinOctants(octree, state, !inside, refuted, regions);
   joinCorners(labels, inside, regions);
   CursorsAround octants = cursorsAround(octree);
@@ -234,7 +277,20 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
     }
     if ((labels.inside()[c] != 0) == inside)
     {
-      joinCornerToOctants(octants, p, std::uint32_t(c), around[c], state, refuted, regions);
+      forOctantsAround(octants, p, around[c], state,
+        [&](const Octree::Location& at)
+        {
+          const std::size_t octant = regions.firstOctant[at.generation] + at.index, place = octant - regions.firstOctant[0];
+          if (!entered.empty() && entered[place])
+          {
+            joinWithinOctant(labels, p, std::uint32_t(c), std::uint32_t(octant), lowestCell(octree, at.generation, at.index),
+              std::int32_t(1) << (octree.lattice.depth - at.generation), regions);
+          }
+          else if (refuted.empty() || !refuted[place])
+          {
+            regions.sets.unite(std::uint32_t(c), std::uint32_t(octant));
+          }
+        });
     }
   }
   return regions;
@@ -346,7 +402,9 @@ LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell)
   const std::vector<std::uint8_t> around = intersectionAround(octree, shell);
   for (std::size_t c = 0; c < shell.corners.size(); ++c)
   {
-    joinCornerToOctants(octants, fromMorton(shell.corners[c]), std::uint32_t(c), around[c], OctantState::Inside, {}, regions);
+    forOctantsAround(octants, fromMorton(shell.corners[c]), around[c], OctantState::Inside,
+      [&](const Octree::Location& at)
+      { regions.sets.unite(std::uint32_t(c), std::uint32_t(regions.firstOctant[at.generation] + at.index)); });
   }
   return regions;
 }

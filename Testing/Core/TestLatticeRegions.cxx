@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 using namespace silhouette;
@@ -109,6 +110,57 @@ TEST(LatticeRegions, SolidSurvivorsAndCavitiesAgreeWithFlooding)
     EXPECT_EQ(floodComponents(33, 1, outside), 1);
     EXPECT_EQ(fillCavities(labels), 0u);
   }
+}
+
+TEST(LatticeRegions, CavitiesOfAFieldThatReachesIntoBackgroundOctantsAgreeWithFlooding)
+{
+  Execution execution;
+  const PreparedViews views = prepareViews(viewsOf(sphereMesh(3, 0.4), axisCameras(100.0, 240), 240));
+  const Octree octree = carveViews(views, unitCube(), 5);
+  const int n = octree.lattice.cells();
+  Random random(77);
+  int found = 0, entered = 0;
+  for (int round = 0; round < 8; ++round)
+  {
+    // A ball, larger than what was carved, whose rind has holes: some are cavities, some reach the world beyond.
+    const std::vector<std::uint64_t> leaves = leafCells(octree, OctantState::Intersection);
+    BrickField field(octree.lattice, leaves, 8);
+    for (std::size_t at = 0; at < field.size(); ++at)
+    {
+      const LatticePoint p = fromMorton(field.code(at));
+      const double radius = (Vector3(p.i, p.j, p.k) - Vector3::Constant(n / 2)).norm();
+      const bool hole = radius > 8.0 && random.below(12) == 0;
+      field.values()[at] = float(hole ? -0.5 : 11.0 - radius);
+    }
+    std::vector<std::uint64_t> cells = leaves;
+    for (std::uint64_t cell = 0; cell < std::uint64_t(n) * n * n; ++cell)
+    {
+      // Where field and octree tell different things, as correctedLabels() has it: here, all that the field reaches.
+      const LatticePoint p = fromMorton(cell);
+      bool any = false;
+      for (int c = 0; c < 8; ++c)
+      {
+        const std::ptrdiff_t at = field.find(mortonCode(p + cornerOffset(c)));
+        any = any || (at >= 0 && field.values()[at] > 0.0f);
+      }
+      if (any)
+      {
+        cells.push_back(cell);
+      }
+      const auto location = octree.locate(p);
+      entered += any && location.state == OctantState::Background && location.generation < octree.lattice.depth;
+    }
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    LatticeLabels labels(octree, makeCornerShell(cells, execution), field);
+    const auto outside = [&](const LatticePoint& p) { return !labels.insideAt(p); };
+    const int cavities = floodComponents(n + 1, 1, outside) - 1;
+    found += cavities;
+    EXPECT_EQ(fillCavities(labels), std::uint64_t(cavities)) << round;
+    EXPECT_EQ(floodComponents(n + 1, 1, outside), 1) << round;
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_GT(entered, 1000) << "no octant of several cells holds a part of the solid";
 }
 
 TEST(LatticeRegions, AStrictHullOfTheAnnuliHasNoCavityOneVoteLeavesOne)
