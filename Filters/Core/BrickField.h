@@ -41,7 +41,7 @@ public:
 
   /**
    * Smoothing that draws no curved surface inwards: along each axis a Gaussian of standard deviation `sigma` octants, less a share of itself smoothed
-   * once more, so that polynomials up to the third degree stay. Where bricks end the last value goes on. Cost: 9 sigma values for each and axis.
+   * once more, so that polynomials up to the third degree stay. Where bricks end the last value goes on. Cost: for each value and axis 9 sigma values.
    */
   void smooth(double sigma, Execution& execution);
   /** Codes of the leaf cells that have corners of both signs, ascending; a value of 0 is outside. */

@@ -234,8 +234,9 @@ private:
   void move(FieldCorrection& result, Execution& execution)
   {
     const double deficit = result.remainingDeficit;
-    const double sigma =
-      std::min(this->Options.greatestSmoothing * this->Proportion, this->Options.smoothing * deficit);
+    const double widest = this->Views.lattice().cells(); // whatever is asked for
+    const double sigma = std::min({ this->Options.greatestSmoothing * this->Proportion,
+      std::min(this->Options.smoothing, widest) * deficit, widest });
     BrickField model = this->Least;
     for (std::size_t n = 0; n < model.size(); ++n)
     {

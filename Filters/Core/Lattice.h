@@ -45,6 +45,9 @@ inline LatticePoint neighbourOf(const LatticePoint& p, int n)
   return { p.i + n % 3 - 1, p.j + n / 3 % 3 - 1, p.k + n / 9 - 1 };
 }
 
+/** The numbers, for neighbourOf(), of the six points at the other ends of a lattice point's edges. */
+inline constexpr int EdgeNeighbours[6] = { 4, 10, 12, 14, 16, 22 };
+
 /** Spread the lower 21 bits of x so that two zero bits follow each. */
 inline std::uint64_t spreadBits(std::uint64_t x)
 {

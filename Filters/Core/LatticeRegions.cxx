@@ -56,14 +56,13 @@ LatticeRegions emptyRegions(const Octree& octree, std::size_t corners)
  */
 void joinOctants(const Octree& octree, OctantState state, bool beyond, const std::vector<std::uint8_t>& refuted, LatticeRegions& regions)
 {
-  const auto node = [&](int g, std::size_t i) { return std::uint32_t(regions.firstOctant[g] + i); };
-  const auto counts = [&](std::uint32_t octant) { return refuted.empty() || !refuted[octant - regions.firstOctant[0]]; };
+  const auto counts = [&](int g, std::size_t i) { return refuted.empty() || !refuted[regions.place(g, i)]; };
   const OctantCursor cursor(octree);
   std::array<OctantCursor, 6> cursors{ cursor, cursor, cursor, cursor, cursor, cursor };
   forOctants(octree, state,
     [&](int g, std::size_t i)
     {
-      if (!counts(node(g, i)))
+      if (!counts(g, i))
       {
         return;
       }
@@ -78,14 +77,14 @@ void joinOctants(const Octree& octree, OctantState state, bool beyond, const std
         {
           if (beyond)
           {
-            regions.sets.unite(node(g, i), regions.beyond);
+            regions.sets.unite(regions.octant(g, i), regions.beyond);
           }
           continue;
         }
         const auto other = cursors[side].locate(cell);
-        if (other.generation >= 0 && other.generation <= g && other.state == state && counts(node(other.generation, other.index)))
+        if (other.generation >= 0 && other.generation <= g && other.state == state && counts(other.generation, other.index))
         {
-          regions.sets.unite(node(g, i), node(other.generation, other.index));
+          regions.sets.unite(regions.octant(g, i), regions.octant(other.generation, other.index));
         }
       }
     });
@@ -130,9 +129,8 @@ std::vector<std::uint8_t> intersectionAround(const Octree& octree, const CornerS
 void joinWithinOctant(const LatticeLabels& labels, const LatticePoint& p, std::uint32_t corner, std::uint32_t octant,
   const LatticePoint& lowest, std::int32_t size, LatticeRegions& regions)
 {
-  constexpr int Adjacent[6] = { 4, 10, 12, 14, 16, 22 };
   const auto within = [size](std::int32_t x, std::int32_t low) { return x >= low && x <= low + size; };
-  for (const int n : Adjacent)
+  for (const int n : EdgeNeighbours)
   {
     const LatticePoint q = neighbourOf(p, n);
     if (within(q.i, lowest.i) && within(q.j, lowest.j) && within(q.k, lowest.k) && !labels.insideAt(q))
@@ -208,7 +206,7 @@ std::vector<std::uint8_t> enteredOctants(const LatticeLabels& labels, const Latt
   {
     return entered;
   }
-  entered.resize(regions.beyond - regions.firstOctant[0], 0);
+  entered.resize(regions.octants(), 0);
   CursorsAround octants = cursorsAround(labels.octree());
   for (std::size_t c = 0; c < labels.shell().corners.size(); ++c)
   {
@@ -219,7 +217,7 @@ std::vector<std::uint8_t> enteredOctants(const LatticeLabels& labels, const Latt
         {
           if (at.generation < labels.octree().lattice.depth)
           {
-            entered[regions.firstOctant[at.generation] + at.index - regions.firstOctant[0]] = 1;
+            entered[regions.place(at.generation, at.index)] = 1;
           }
         });
     }
@@ -280,15 +278,16 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
       forOctantsAround(octants, p, around[c], state,
         [&](const Octree::Location& at)
         {
-          const std::size_t octant = regions.firstOctant[at.generation] + at.index, place = octant - regions.firstOctant[0];
+          const std::uint32_t octant = regions.octant(at.generation, at.index);
+          const std::size_t place = regions.place(at.generation, at.index);
           if (!entered.empty() && entered[place])
           {
-            joinWithinOctant(labels, p, std::uint32_t(c), std::uint32_t(octant), lowestCell(octree, at.generation, at.index),
+            joinWithinOctant(labels, p, std::uint32_t(c), octant, lowestCell(octree, at.generation, at.index),
               std::int32_t(1) << (octree.lattice.depth - at.generation), regions);
           }
           else if (refuted.empty() || !refuted[place])
           {
-            regions.sets.unite(std::uint32_t(c), std::uint32_t(octant));
+            regions.sets.unite(std::uint32_t(c), octant);
           }
         });
     }
@@ -301,13 +300,13 @@ LatticeRegions connectWideOutside(const LatticeLabels& labels, int width)
   const Octree& octree = labels.octree();
   LatticeRegions regions = emptyRegions(octree, labels.shell().corners.size());
   std::vector<std::uint8_t> left = refutedOctants(labels, OctantState::Background);
-  left.resize(regions.beyond - regions.firstOctant[0], 0);
+  left.resize(regions.octants(), 0);
   forOctants(octree, OctantState::Background,
     [&](int g, std::size_t i)
     {
       if (octree.lattice.cells() >> g < width)
       {
-        left[regions.firstOctant[g] + i - regions.firstOctant[0]] = 1;
+        left[regions.place(g, i)] = 1;
       }
     });
   joinOctants(octree, OctantState::Background, true, left, regions);
@@ -342,7 +341,7 @@ std::uint64_t fillCavities(LatticeLabels& labels)
   forOctants(octree, OctantState::Background,
     [&](int g, std::size_t i)
     {
-      if (cavities.count(regions.sets.find(std::uint32_t(regions.firstOctant[g] + i))))
+      if (cavities.count(regions.sets.find(regions.octant(g, i))))
       {
         labels.fillOctant(g, i);
       }
@@ -367,7 +366,7 @@ std::uint64_t dropUnsupported(LatticeLabels& labels)
     }
   }
   forOctants(octree, OctantState::Inside,
-    [&](int g, std::size_t i) { supported.insert(regions.sets.find(std::uint32_t(regions.firstOctant[g] + i))); });
+    [&](int g, std::size_t i) { supported.insert(regions.sets.find(regions.octant(g, i))); });
   std::set<std::uint32_t> dropped;
   for (std::size_t c = 0; c < shell.corners.size(); ++c)
   {
@@ -404,7 +403,7 @@ LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell)
   {
     forOctantsAround(octants, fromMorton(shell.corners[c]), around[c], OctantState::Inside,
       [&](const Octree::Location& at)
-      { regions.sets.unite(std::uint32_t(c), std::uint32_t(regions.firstOctant[at.generation] + at.index)); });
+      { regions.sets.unite(std::uint32_t(c), regions.octant(at.generation, at.index)); });
   }
   return regions;
 }
@@ -420,7 +419,7 @@ std::uint64_t countSurvivorComponents(const Octree& octree, Execution& execution
   }
   forOctants(octree, OctantState::Inside,
     [&](int g, std::size_t i)
-    { components.insert(regions.sets.find(std::uint32_t(regions.firstOctant[g] + i))); });
+    { components.insert(regions.sets.find(regions.octant(g, i))); });
   return components.size();
 }
 

@@ -18,6 +18,16 @@ struct LatticeRegions
   UnionFind sets;
   std::vector<std::size_t> firstOctant; ///< number of the first octant of each generation
   std::uint32_t beyond = 0;             ///< the world beyond the root cube
+
+  /** Number of an octant among the sets. */
+  std::uint32_t octant(int generation, std::size_t index) const
+  {
+    return std::uint32_t(this->firstOctant[std::size_t(generation)] + index);
+  }
+  /** The same among the octants alone. */
+  std::size_t place(int generation, std::size_t index) const { return this->octant(generation, index) - this->firstOctant[0]; }
+  /** How many octants there are. */
+  std::size_t octants() const { return this->beyond - this->firstOctant[0]; }
 };
 
 /** Regions of the corners with the given label. Numbers of corners and octants with the other label are alone. */

@@ -127,7 +127,7 @@ namespace
 int doubleEuler(const Neighbourhood& labels)
 {
   int points = 0, segments = 0, loops = 0;
-  for (const int n : { 4, 10, 12, 14, 16, 22 })
+  for (const int n : EdgeNeighbours)
   {
     points += labels[n] != labels[Centre];
   }

@@ -41,7 +41,7 @@ public:
       {
         if (states[i] == OctantState::Inside)
         {
-          work(g, i, this->Regions.sets.find(std::uint32_t(this->Regions.firstOctant[g] + i)));
+          work(g, i, this->Regions.sets.find(this->Regions.octant(g, i)));
         }
         else if (g == depth && states[i] == OctantState::Intersection)
         {

@@ -224,9 +224,6 @@ private:
   BrickCursor Cursor;
 };
 
-/** The six neighbours along lattice edges among the 27 points around one. */
-constexpr int Adjacent[6] = { 4, 10, 12, 14, 16, 22 };
-
 class Growth
 {
 public:
@@ -334,7 +331,7 @@ private:
       if (location.generation >= 0 && location.state == OctantState::Background &&
         octree.lattice.cells() >> location.generation >= this->Width)
       {
-        this->Sets.unite(n, octants + std::uint32_t(regions.firstOctant[location.generation] + location.index));
+        this->Sets.unite(n, octants + regions.octant(location.generation, location.index));
       }
     }
     for (std::uint32_t r = 0; r < regions.sets.size(); ++r)
@@ -370,7 +367,7 @@ private:
       this->joinWide();
     }
     std::vector<std::uint32_t> roots;
-    for (const int a : Adjacent)
+    for (const int a : EdgeNeighbours)
     {
       const std::ptrdiff_t other = this->Outside.find(neighbourOf(p, a));
       if (other >= 0 && isWide(this->Outside[other]))
@@ -394,7 +391,7 @@ private:
         this->push(std::size_t(other));
       }
       else if (this->Sets.size() > 0 && other >= 0 && isWide(this->Outside[other]) &&
-        std::find(Adjacent, Adjacent + 6, a) != Adjacent + 6)
+        std::find(EdgeNeighbours, EdgeNeighbours + 6, a) != EdgeNeighbours + 6)
       {
         this->Sets.unite(std::uint32_t(n), std::uint32_t(other));
       }

@@ -259,6 +259,40 @@ TEST(FieldCorrection, UnderCameraNoiseTheViewsAreShiftedBack)
   }
 }
 
+TEST(FieldCorrection, ASurfaceThatIsMovedAsAWholeShiftsNoView)
+{
+  Execution execution;
+  captureOf(SyntheticShape::Torus).draw(3.0, 0.0, 4);
+  Corrected noisy(captureOf(SyntheticShape::Torus));
+  ASSERT_TRUE(noisy.correction.field.has_value());
+  const double octants = 0.6;
+  for (Vector3& p : noisy.exact.points)
+  {
+    p += octants * noisy.lattice.leafEdge() * Vector3(0.6, 0.0, 0.8);
+  }
+  const FieldCorrection moved = noisy.correct({}, execution);
+  ASSERT_TRUE(moved.field.has_value());
+  const double pixels = FieldViews(noisy.views, noisy.lattice, 4.0).pixelsPerOctant(0);
+  EXPECT_GT(moved.shift, noisy.correction.shift + 0.2 * octants); // the views see it
+  EXPECT_LT(moved.alignment, noisy.correction.alignment + 0.15 * octants * pixels);
+}
+
+TEST(FieldCorrection, SmoothingIsNoWiderThanTheLattice)
+{
+  Execution execution;
+  captureOf(SyntheticShape::Sphere).draw(3.0, 0.0, 4);
+  const Corrected noisy(captureOf(SyntheticShape::Sphere));
+  FieldCorrectionOptions options;
+  options.smoothing = options.greatestSmoothing = std::numeric_limits<double>::infinity();
+  const FieldCorrection widest = noisy.correct(options, execution);
+  ASSERT_TRUE(widest.field.has_value());
+  for (const float value : widest.field->values())
+  {
+    ASSERT_TRUE(std::isfinite(value));
+  }
+  EXPECT_NE(widest.field->values(), noisy.correction.field->values());
+}
+
 TEST(FieldCorrection, EachPartDoesWhatItSaysAlone)
 {
   captureOf(SyntheticShape::Torus).draw(1.2, 1.0, 4);
