@@ -106,7 +106,7 @@ const char* const Scaling = R"(
 The ratio of the local hulls' error to exact marching cubes', without noise and under contour noise of half an octant of the
 depth. The constants are shares or octants, so that the ratio is to stay where an octant is at least two pixels
 wide; in the middle of an image of 512 pixels it is 7.5 pixels at depth 6 and 0.9 at depth 9. It stays over the
-sizes of images. It does not stay over the depths, but rises: the smaller an octant is beside the object, the fewer views
+sizes of images as long as an octant is that wide. It does not stay over the depths, but rises: the smaller an octant is beside the object, the fewer views
 compete at a point, and the less marching cubes' own error; that the noise is smooth over 6 of 1024 pixels whatever the
 depth, which is ever more octants, explains a small part of it (method.md, section 4).
 )";
