@@ -7,7 +7,6 @@
 #include "LatticeSurface.h"
 #include "RobustLabels.h"
 #include "SurvivorCovering.h"
-#include "SurvivorIslands.h"
 #include "ThesisHullSurface.h"
 #include "ThinHullFitting.h"
 #include "UnionFind.h"
@@ -124,15 +123,23 @@ struct Survivors
   std::vector<Bridge> bridges;
   std::vector<std::uint64_t> bridgePoints;
 
-  Survivors(const Octree& carved, int bridgeGap, Execution& execution)
+  /** `intersection` is the shell of the octree's intersection octants. */
+  Survivors(const Octree& carved, CornerShell intersection, int bridgeGap)
     : octree(carved)
-    , shell(makeCornerShell(leafCells(carved, OctantState::Intersection), execution))
+    , shell(std::move(intersection))
     , bridges(bridgeSurvivors(carved, this->shell, bridgeGap))
   {
     for (const auto& bridge : this->bridges)
     {
       this->bridgePoints.insert(this->bridgePoints.end(), bridge.begin(), bridge.end());
     }
+  }
+
+  void count(LocalHullSurface& surface) const
+  {
+    surface.bridges = this->bridges.size();
+    surface.survivors = this->octree.count(OctantState::Intersection, this->octree.lattice.depth) +
+      this->octree.count(OctantState::Inside, this->octree.lattice.depth);
   }
 };
 
@@ -319,52 +326,81 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
     countComponents(surface.mesh) <= countSurvivorComponents(survivors.octree, execution);
 }
 
-/** Nothing corrected. */
+/** Nothing corrected, and nothing given up. */
 LocalHullOptions plainOptions(const LocalHullOptions& options)
 {
   LocalHullOptions plain = options;
+  plain.islandShare = 0.0;
   plain.repairSilhouettes = false;
   plain.correction.alignViews = false;
   plain.correction.moveSurface = false;
   return plain;
 }
 
-LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
+CornerShell intersectionShell(const Octree& octree, Execution& execution)
+{
+  return makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
+}
+
+/** Robust without views. */
+LocalHullSurface uncorrectedSurface(
+  const Mesh& imperfect, const Octree& octree, const LocalHullOptions& options, Execution& execution)
+{
+  LocalHullSurface surface;
+  const Survivors survivors(octree, intersectionShell(octree, execution), options.bridgeGap);
+  survivors.count(surface);
+  execution.checkpoint(0.4);
+  const SurfaceCrossings crossings = locateCrossings(imperfect, octree.lattice);
+  surface.ignoredPoints = crossings.ignoredPoints;
+  LatticeLabels labels(octree, extendedShell(survivors.shell, survivors.bridgePoints, execution), crossings);
+  Phase finishing(execution, 0.5, 1.0);
+  coverAndContour(labels, survivors, crossings, nullptr, options, surface, finishing);
+  return surface;
+}
+
+/** The octree without debris and islands. */
+Octree withoutCrumbs(
+  const Octree& octree, const CorrectedCapture& capture, double islandShare, DroppedSurvivors& dropped, Execution& execution)
+{
+  const auto debris = capture.recarved ? debrisLeaves(octree, *capture.recarved) : std::vector<std::uint64_t>();
+  Unannounced dropping(execution);
+  return dropIslands(dropLeaves(octree, debris, dropped), islandShare, dropped, dropping);
+}
+
+LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& carved, const PreparedViews& views,
   const LocalHullOptions& options, Execution& execution)
 {
   LocalHullSurface surface;
-  const Survivors survivors(octree, options.bridgeGap, execution);
-  surface.bridges = survivors.bridges.size();
-  surface.survivors = octree.count(OctantState::Intersection, octree.lattice.depth) +
-    octree.count(OctantState::Inside, octree.lattice.depth);
+  CornerShell shell = intersectionShell(carved, execution);
   execution.checkpoint(0.1);
-  Phase finishing(execution, 0.6, 0.9);
-  if (!views)
-  {
-    const SurfaceCrossings crossings = locateCrossings(imperfect, octree.lattice);
-    surface.ignoredPoints = crossings.ignoredPoints;
-    LatticeLabels labels(octree, extendedShell(survivors.shell, survivors.bridgePoints, execution), crossings);
-    coverAndContour(labels, survivors, crossings, nullptr, options, surface, finishing);
-    return surface;
-  }
   Phase correcting(execution, 0.1, 0.5);
-  const CorrectedCapture capture = correctCapture(imperfect, octree, survivors.shell, *views, options, correcting);
+  const CorrectedCapture capture = correctCapture(imperfect, carved, shell, views, options, correcting);
   surface.deficit = capture.correction.deficit;
   surface.shift = capture.correction.shift;
   surface.alignment = capture.correction.alignment;
   surface.repairedPixels = capture.repairedPixels;
-  LatticeLabels labels =
-    correctedLabels(octree, survivors.shell, survivors.bridgePoints, *views, capture, execution);
+  std::optional<Octree> kept;
+  if (options.islandShare > 0.0)
+  {
+    kept = withoutCrumbs(carved, capture, options.islandShare, surface.dropped, execution);
+    shell = intersectionShell(*kept, execution);
+  }
+  const Octree& octree = kept ? *kept : carved;
+  const Survivors survivors(octree, std::move(shell), options.bridgeGap);
+  survivors.count(surface);
+  LatticeLabels labels = correctedLabels(octree, survivors.shell, survivors.bridgePoints, views, capture, execution);
   execution.checkpoint(0.6);
   const SurfaceCrossings crossings = locateCrossings(capture.surface ? *capture.surface : imperfect, octree.lattice);
   surface.ignoredPoints = crossings.ignoredPoints;
-  const PreparedViews* used = capture.repaired ? &*capture.repaired : views;
-  if (coverAndContour(labels, survivors, crossings, used, options, surface, finishing))
+  Phase finishing(execution, 0.6, 0.9);
+  if (coverAndContour(labels, survivors, crossings, capture.repaired ? &*capture.repaired : &views, options, surface, finishing))
   {
     return surface;
   }
   Phase again(execution, 0.9, 1.0);
-  return robustSurface(imperfect, octree, views, plainOptions(options), again);
+  LocalHullSurface plain = robustSurface(imperfect, octree, views, plainOptions(options), again);
+  plain.dropped = surface.dropped;
+  return plain;
 }
 
 LocalHullSurface thesisSurface(const Mesh& imperfect, const Octree& octree, const PreparedViews* views,
@@ -390,7 +426,13 @@ LocalHullSurface localHullSurface(const Mesh& imperfect, const Octree& octree, c
   {
     return {};
   }
-  std::uint64_t dropped = 0;
+  if (options.mode == LocalHullMode::Robust && views)
+  {
+    LocalHullSurface surface = robustSurface(imperfect, octree, *views, options, execution);
+    execution.progress(1.0);
+    return surface;
+  }
+  DroppedSurvivors dropped;
   std::optional<Octree> kept;
   if (options.islandShare > 0.0)
   {
@@ -401,8 +443,8 @@ LocalHullSurface localHullSurface(const Mesh& imperfect, const Octree& octree, c
   const Octree& used = kept ? *kept : octree;
   LocalHullSurface surface = options.mode == LocalHullMode::Thesis
     ? thesisSurface(imperfect, used, views, options, surfacing)
-    : robustSurface(imperfect, used, views, options, surfacing);
-  surface.droppedOctants = dropped;
+    : uncorrectedSurface(imperfect, used, options, surfacing);
+  surface.dropped = std::move(dropped);
   execution.progress(1.0);
   return surface;
 }
@@ -412,7 +454,6 @@ LocalHullSurface coveredSurface(const Mesh& imperfect, const Octree& octree, con
 {
   LocalHullOptions plain = plainOptions(options);
   plain.mode = LocalHullMode::Robust;
-  plain.islandShare = 0.0;
   plain.thinHulls = false;
   plain.tunnels.fillTunnels = false;
   return localHullSurface(imperfect, octree, views, plain, execution);

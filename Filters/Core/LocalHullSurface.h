@@ -16,6 +16,7 @@
 #include "PreparedViews.h"
 #include "SilhouetteRepair.h"
 #include "SliceRegions.h"
+#include "SurvivorIslands.h"
 #include "ThinHulls.h"
 #include "TunnelFilling.h"
 
@@ -37,7 +38,8 @@ struct LocalHullOptions
   bool singlePrecision = false; ///< round points to float, and promise it for these
   /**
    * 0 to 1: islands, components of the survivors with fewer octants than this share of the largest one's, are given
-   * up and counted; 0 keeps all, larger drops larger ones.
+   * up and counted; 0 keeps all, larger drops larger ones. Above 0, where silhouettes are repaired, so is debris: octants of the last
+   * generation that only pixels uphold which the repair finds false. Islands are then those of what is left.
    */
   double islandShare = 0.0;
   bool repairSilhouettes = true; ///< Robust, with views: fill what a single view cuts deep and wide out of the object
@@ -66,7 +68,7 @@ struct LocalHullSurface
   std::uint64_t ignoredPoints = 0;   ///< points of the imperfect surface that lie on no lattice edge
   std::uint64_t thinHulls = 0;       ///< hulls that thin parts were rounded into
   std::uint64_t movedToHulls = 0;    ///< points moved for it
-  std::uint64_t droppedOctants = 0;  ///< survivors given up as islands
+  DroppedSurvivors dropped;          ///< survivors given up as islands and debris
   double deficit = 0.0;              ///< octants: the silhouettes' mean deficit before any correction; 0 without views
   double shift = 0.0;                ///< octants: the mean shift of their contours against the surface's; 0 without views
   double alignment = 0.0;            ///< px, the mean length of the views' shifts; 0 where they were not shifted

@@ -57,36 +57,53 @@ private:
   std::vector<std::uint32_t> ByCell; ///< for each intersection octant of the last generation, in its order
 };
 
-/** childBlock counts intersection octants, of which the last generation may have lost some. */
-void countIntersections(Generation& generation)
+/** Octants of the last generation's size that an octant of a generation holds. */
+std::uint64_t leavesIn(const Octree& octree, int generation)
 {
-  std::uint32_t blocks = 0;
-  for (std::size_t i = 0; i < generation.size(); ++i)
+  return std::uint64_t(1) << 3 * (octree.lattice.depth - generation);
+}
+
+void giveUp(Octree& octree, int generation, std::size_t index, DroppedSurvivors& dropped)
+{
+  Generation& own = octree.generations[generation];
+  own.state[index] = OctantState::Background;
+  dropped.octants += leavesIn(octree, generation);
+  if (generation == octree.lattice.depth)
   {
-    generation.childBlock[i] = blocks;
-    blocks += generation.state[i] == OctantState::Intersection;
+    dropped.leaves.push_back(own.code[index]);
   }
+}
+
+/** childBlock counts intersection octants, of which the last generation may have lost some. */
+void settle(Octree& octree, DroppedSurvivors& dropped)
+{
+  Generation& last = octree.generations.back();
+  std::uint32_t blocks = 0;
+  for (std::size_t i = 0; i < last.size(); ++i)
+  {
+    last.childBlock[i] = blocks;
+    blocks += last.state[i] == OctantState::Intersection;
+  }
+  std::sort(dropped.leaves.begin(), dropped.leaves.end());
 }
 
 } // namespace
 
-Octree dropIslands(const Octree& octree, double share, std::uint64_t& droppedOctants, Execution& execution)
+Octree dropIslands(const Octree& octree, double share, DroppedSurvivors& dropped, Execution& execution)
 {
   if (!(share >= 0.0 && share <= 1.0))
   {
     throw InvalidInput("island share " + std::to_string(share) + " is outside 0 to 1");
   }
-  droppedOctants = 0;
   Octree kept = octree;
   if (share == 0.0 || octree.generations.empty())
   {
     return kept;
   }
   Components components(octree, execution);
-  const auto leaves = [&](int g) { return std::uint64_t(1) << 3 * (octree.lattice.depth - g); };
   std::unordered_map<std::uint32_t, std::uint64_t> sizes;
   components.forSurvivors(
-    [&](int g, std::size_t, std::uint32_t component) { sizes[component] += leaves(g); });
+    [&](int g, std::size_t, std::uint32_t component) { sizes[component] += leavesIn(octree, g); });
   std::uint64_t largest = 0;
   for (const auto& one : sizes)
   {
@@ -98,12 +115,39 @@ Octree dropIslands(const Octree& octree, double share, std::uint64_t& droppedOct
     {
       if (double(sizes[component]) < share * double(largest))
       {
-        kept.generations[g].state[i] = OctantState::Background;
-        droppedOctants += leaves(g);
+        giveUp(kept, g, i, dropped);
       }
     });
-  countIntersections(kept.generations.back());
+  settle(kept, dropped);
   execution.checkpoint(1.0);
+  return kept;
+}
+
+std::vector<std::uint64_t> debrisLeaves(const Octree& octree, const Octree& repaired)
+{
+  std::vector<std::uint64_t> leaves = leafCells(octree, OctantState::Intersection);
+  OctantCursor cursor(repaired);
+  const auto stays = [&](std::uint64_t leaf) { return cursor.locate(fromMorton(leaf)).state != OctantState::Background; };
+  leaves.erase(std::remove_if(leaves.begin(), leaves.end(), stays), leaves.end());
+  return leaves;
+}
+
+Octree dropLeaves(const Octree& octree, const std::vector<std::uint64_t>& leaves, DroppedSurvivors& dropped)
+{
+  Octree kept = octree;
+  if (leaves.empty() || octree.generations.empty())
+  {
+    return kept;
+  }
+  const Generation& last = octree.generations.back();
+  for (std::size_t i = 0; i < last.size(); ++i)
+  {
+    if (last.state[i] != OctantState::Background && std::binary_search(leaves.begin(), leaves.end(), last.code[i]))
+    {
+      giveUp(kept, octree.lattice.depth, i, dropped);
+    }
+  }
+  settle(kept, dropped);
   return kept;
 }
 

@@ -52,6 +52,11 @@ void setField(vtkDataObject* data, const char* name, const std::vector<double>& 
   setValues<vtkDoubleArray>(data, name, values.data(), values.size());
 }
 
+void setField(vtkDataObject* data, const char* name, const std::vector<std::uint64_t>& values)
+{
+  setValues<vtkTypeUInt64Array>(data, name, values.data(), values.size());
+}
+
 std::vector<double> getField(vtkDataObject* data, const char* name, std::size_t count,
                              const std::string& what)
 {
@@ -74,6 +79,20 @@ std::uint64_t getUnsignedField(vtkDataObject* data, const char* name, const std:
   getField(data, name, 1, what);
   // A double holds 53 bits only: a fingerprint has 64.
   return data->GetFieldData()->GetArray(name)->GetVariantValue(0).ToUnsignedLongLong();
+}
+
+std::vector<std::uint64_t> getUnsignedFields(vtkDataObject* data, const char* name, const std::string& what)
+{
+  vtkDataArray* array = data->GetFieldData() ? data->GetFieldData()->GetArray(name) : nullptr;
+  vtkTypeUInt64Array* integers = vtkTypeUInt64Array::SafeDownCast(array);
+  if (array && !integers)
+  {
+    throw InvalidInput(what + " has a field array " + name + " of type " + array->GetDataTypeAsString() +
+                       "; unsigned 64-bit integers are needed");
+  }
+  return integers ? std::vector<std::uint64_t>(integers->GetPointer(0),
+                                               integers->GetPointer(0) + integers->GetNumberOfValues())
+                  : std::vector<std::uint64_t>();
 }
 
 int getIntegerField(vtkDataObject* data, const char* name, int otherwise)

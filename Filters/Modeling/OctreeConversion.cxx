@@ -184,7 +184,8 @@ void storeParameters(const Octree& octree, vtkHyperTreeGrid* grid)
     inside += octree.count(OctantState::Inside, g);
   }
   setField(grid, "Depth", octree.lattice.depth);
-  setField(grid, "RootCube", {root.origin[0], root.origin[1], root.origin[2], root.edge});
+  setField(grid, "RootCube",
+           std::vector<double>{root.origin[0], root.origin[1], root.origin[2], root.edge});
   setField(grid, "TreeGeneration", octree.treeGeneration);
   setField(grid, "NumberOfViews", octree.viewCount);
   setField(grid, "BackgroundVotes", octree.backgroundVotes);

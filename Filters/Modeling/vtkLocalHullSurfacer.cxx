@@ -59,7 +59,11 @@ void storeSurface(const silhouette::LocalHullSurface& found, const MeshOutput& o
   setField(surface, "CavitiesFilled", found.cavitiesFilled);
   setField(surface, "IgnoredPoints", found.ignoredPoints);
   setField(surface, "MovedToMiddle", found.movedToMiddle);
-  setField(surface, "DroppedOctants", found.droppedOctants);
+  setField(surface, "DroppedOctants", found.dropped.octants);
+  if (!found.dropped.leaves.empty())
+  {
+    setField(surface, "DroppedLeaves", found.dropped.leaves);
+  }
   setField(surface, "HandleCorners", found.handleCorners);
   setField(surface, "TunnelCorners", found.tunnelCorners);
   setField(surface, "Deficit", found.deficit);

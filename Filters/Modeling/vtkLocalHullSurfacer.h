@@ -20,7 +20,8 @@
  * | | | field `CavitiesFilled` | 64-bit unsigned, 1 | cavities labelled inside |
  * | | | field `IgnoredPoints` | 64-bit unsigned, 1 | input points that lie on no lattice edge |
  * | | | fields `HandleCorners`, `TunnelCorners` | 64-bit unsigned, 1 | lattice points labelled inside to join handles that noise had cut; to fill narrow tunnels |
- * | | | field `DroppedOctants` | 64-bit unsigned, 1 | survivors given up as islands, in octants of the last generation's size |
+ * | | | field `DroppedOctants` | 64-bit unsigned, 1 | survivors given up as islands and debris, in octants of the last generation's size |
+ * | | | field `DroppedLeaves` | 64-bit unsigned, 1 | `LatticeCode` of those of the last generation, ascending; absent where there are none |
  * | | | field `Deficit` | double, 1 | the silhouettes' mean deficit before any correction, in leaf octants; 0 without views |
  * | | | field `Shift` | double, 1 | how far the silhouettes' contours are shifted against the surface's before any correction, mean over the views, in leaf octants; 0 without views |
  * | | | field `Alignment` | double, 1 | mean length of the views' shifts, in pixels; 0 where they were not shifted |
@@ -35,7 +36,7 @@
  * is connected to the second output. Update() alone leaves that output empty, and asking for it later does
  * not compute the surface again.
  *
- * Steps in Robust mode: islands given up; silhouettes repaired and aligned; a globally consistent inside or
+ * Steps in Robust mode: silhouettes repaired and aligned; debris and islands given up; a globally consistent inside or
  * outside label for each lattice corner, corrected by what the views agree on; every survivor covered, pieces
  * joined; the marching-cubes table over all mixed cells; crossings from the surface where it has them, else
  * from the views, else where the covering asks; thin parts made round. In Thesis mode: the sliced volume's
@@ -124,7 +125,9 @@ public:
   /**
    * Islands, components of the survivors (26-neighbourhood) with fewer octants than this share of the largest
    * one's, are given up and counted, `DroppedOctants`; 0 to 1, default 0, which keeps all. Larger gives up
-   * larger ones.
+   * larger ones. Above 0, where silhouettes are repaired (RepairSilhouettes, Robust mode, with views), so is debris: octants of
+   * the last generation that only pixels uphold which the repair finds false, as salt does near the object.
+   * Islands are then those of what is left.
    */
   vtkSetMacro(IslandShare, double);
   vtkGetMacro(IslandShare, double);

@@ -19,6 +19,8 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <algorithm>
+
 using namespace silhouette::modeling;
 
 namespace
@@ -32,6 +34,15 @@ silhouette::Mesh nonEmptyMesh(vtkPolyData* polyData, const char* what)
     throw silhouette::InvalidInput(std::string(what) + " has no triangles");
   }
   return mesh;
+}
+
+/** The octree without what the surface says was given up. */
+silhouette::Octree withoutDropped(const std::shared_ptr<const silhouette::Octree>& octree, vtkPolyData* surface)
+{
+  std::vector<std::uint64_t> leaves = getUnsignedFields(surface, "DroppedLeaves", "the surface");
+  std::sort(leaves.begin(), leaves.end());
+  silhouette::DroppedSurvivors dropped;
+  return silhouette::dropLeaves(*octree, leaves, dropped);
 }
 
 } // namespace
@@ -91,11 +102,9 @@ int vtkSilhouetteEvaluator::RequestData(vtkInformation* request, vtkInformationV
     double spacing = this->SampleSpacing;
     if (grid)
     {
-      silhouette::Phase dropping(execution, 0.6, 0.65);
-      std::uint64_t dropped = 0;
       const silhouette::Octree octree =
-          silhouette::dropIslands(*sharedOctree(grid), this->IslandShare, dropped, dropping);
-      silhouette::Phase covering(execution, 0.65, 0.7);
+          withoutDropped(sharedOctree(grid), vtkPolyData::GetData(inputs[0]));
+      silhouette::Phase covering(execution, 0.6, 0.7);
       setField(table, "LostSurface", std::uint64_t(silhouette::lostSurvivors(octree, mesh, covering)));
       setField(table, "LeafEdge", octree.lattice.leafEdge());
       spacing = spacing == 0.0 ? octree.lattice.leafEdge() : spacing;
@@ -116,6 +125,5 @@ int vtkSilhouetteEvaluator::RequestData(vtkInformation* request, vtkInformationV
 void vtkSilhouetteEvaluator::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "IslandShare: " << this->IslandShare << "\n";
   os << indent << "SampleSpacing: " << this->SampleSpacing << "\n";
 }

@@ -27,7 +27,7 @@
  * | `Closed`, `Sound` | int, 0 or 1 | sound: closed, manifold, consistent, free of self-intersections, of positive volume |
  * | `MeshToTruthMean`, `TruthToMeshMean`, `MeshToTruthMaximum`, `TruthToMeshMaximum` | double | with a truth: distances in the capture's unit |
  * | `TruthMean`, `TruthRMS`, `TruthHausdorff`, `SampleSpacing` | double | with a truth: over both directions, in the capture's unit |
- * | `LostSurface`; `LeafEdge` | 64-bit unsigned; double | with an octree: octants of the last generation that survived and that the surface neither crosses nor encloses, islands left out (IslandShare); their edge |
+ * | `LostSurface`; `LeafEdge` | 64-bit unsigned; double | with an octree: octants of the last generation that survived and that the surface neither crosses nor encloses, without those that it says were given up (its field `DroppedLeaves`, of vtkLocalHullSurfacer); their edge |
  *
  * Steps: exact predicates for the self-intersections; a pixel of the rendered surface is object where its
  * centre lies in a projected triangle; distances are from samples by area to the nearest point of a triangle.
@@ -68,16 +68,6 @@ public:
   ///@}
 
   ///@{
-  /**
-   * With an octree: components of its survivors (26-neighbourhood) with fewer octants than this share of the largest
-   * one's are not asked for in `LostSurface`; 0 to 1, default 0, which asks for all. Set it to the surfacer's
-   * IslandShare; larger asks for less.
-   */
-  vtkSetMacro(IslandShare, double);
-  vtkGetMacro(IslandShare, double);
-  ///@}
-
-  ///@{
   /** The second port's input: the views. */
   void SetViewsConnection(vtkAlgorithmOutput* views) { this->SetInputConnection(1, views); }
   void SetViewsData(vtkDataObject* views) { this->SetInputData(1, views); }
@@ -105,7 +95,6 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputs,
                   vtkInformationVector* outputs) override;
 
-  double IslandShare = 0.0;
   double SampleSpacing = 0.0;
 
 private:

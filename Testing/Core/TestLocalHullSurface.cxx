@@ -3,6 +3,7 @@
 
 #include "CarvingTestCaptures.h"
 #include "LatticeRegions.h"
+#include "MeshDistance.h"
 #include "SurvivorCoverage.h"
 
 #include <gtest/gtest.h>
@@ -173,6 +174,86 @@ TEST(LocalHullSurface, DoesNotFattenCleanSolids)
     EXPECT_LE(assessMesh(result.mesh, execution).genus.value(), assessMesh(exact.mesh, execution).genus.value());
     EXPECT_GE(assessMesh(result.mesh, execution).genus.value(), shape);
   }
+}
+
+TEST(LocalHullSurface, KeepsItsPromiseForWhatIsNotGivenUp)
+{
+  Execution execution;
+  std::uint64_t given = 0;
+  for (const int kind : { 0, 1, 2, 3, 5 })
+  {
+    const Scene run(kind % 3, kind, 0);
+    for (const PreparedViews* views : { static_cast<const PreparedViews*>(nullptr), &run.views })
+    {
+      LocalHullOptions options;
+      options.islandShare = 0.5;
+      const auto result = localHullSurface(run.surface.mesh, run.octree, views, options, execution);
+      DroppedSurvivors dropped;
+      const Octree kept = dropLeaves(run.octree, result.dropped.leaves, dropped);
+      EXPECT_EQ(dropped.leaves, result.dropped.leaves);
+      expectPromise(result.mesh, kept, "noise " + std::to_string(kind) + (views ? ", views" : ""));
+      given += dropped.octants;
+      options.islandShare = 0.0;
+      EXPECT_EQ(localHullSurface(run.surface.mesh, run.octree, views, options, execution).dropped.octants, 0u);
+    }
+  }
+  EXPECT_GT(given, 0u);
+}
+
+/** Debris of flipped pixels that touches the object is no island, but the repair of the silhouettes tells it. */
+TEST(LocalHullSurface, DebrisIsGivenUpWithTheIslands)
+{
+  Execution execution;
+  auto captured = viewsOf(shapeOf(1), swayingRing(24, 400), 400);
+  const PreparedViews cleanViews = prepareViews(captured);
+  const Octree clean = carveViews(cleanViews, unitCube(), 6);
+  const Mesh truth = localHullSurface(
+    votingMarchingCubes(clean, cleanViews, VotingOptions(), execution).mesh, clean, &cleanViews, {}, execution).mesh;
+  Random random(5);
+  for (View& view : captured)
+  {
+    for (auto& pixel : view.silhouette.pixels)
+    {
+      pixel ^= std::uint8_t(random.uniform() < 0.01);
+    }
+  }
+  const PreparedViews views = prepareViews(captured);
+  const Octree octree = carveViews(views, unitCube(), 6);
+  const Mesh imperfect = votingMarchingCubes(octree, views, VotingOptions(), execution).mesh;
+  const double leaf = octree.lattice.leafEdge();
+  const auto error = [&](double share, bool repair, LocalHullSurface& surface)
+  {
+    LocalHullOptions options;
+    options.islandShare = share;
+    options.repairSilhouettes = repair;
+    surface = localHullSurface(imperfect, octree, &views, options, execution);
+    return compareMeshes(surface.mesh, truth, leaf / 2.0, execution).mean / leaf;
+  };
+  LocalHullSurface all, islandless, unrepaired;
+  const double kept = error(0.0, true, all), without = error(0.05, true, islandless);
+  error(0.05, false, unrepaired);
+  EXPECT_EQ(all.dropped.octants, 0u);
+  expectPromise(all.mesh, octree, "all kept");
+  EXPECT_GT(islandless.dropped.octants, unrepaired.dropped.octants) << "debris beside islands";
+  const MeshSoundness soundness = assessMesh(islandless.mesh, execution);
+  EXPECT_TRUE(soundness.sound());
+  EXPECT_EQ(soundness.components, 1u);
+  EXPECT_EQ(soundness.genus.value(), assessMesh(truth, execution).genus.value());
+  EXPECT_LT(without, 0.05);
+  EXPECT_LT(without, 0.3 * kept);
+}
+
+TEST(LocalHullSurface, ACleanCaptureHasNothingToGiveUp)
+{
+  Execution execution;
+  const Scene run(1, 0, 0);
+  LocalHullOptions options;
+  const auto kept = localHullSurface(run.surface.mesh, run.octree, &run.views, options, execution);
+  options.islandShare = 1.0;
+  const auto asked = localHullSurface(run.surface.mesh, run.octree, &run.views, options, execution);
+  EXPECT_EQ(asked.dropped.octants, 0u);
+  EXPECT_EQ(asked.mesh.points, kept.mesh.points);
+  EXPECT_EQ(asked.mesh.triangles, kept.mesh.triangles);
 }
 
 TEST(LocalHullSurface, SameBytesForAnyNumberOfThreadsAndAnyOrderOfViews)

@@ -40,6 +40,21 @@ std::uint64_t survivingCells(const Octree& octree, int low, int high)
   return count;
 }
 
+/** Codes of the last generation's survivors of `octree` that `less` calls background. */
+std::vector<std::uint64_t> leavesOnlyIn(const Octree& octree, const Octree& less)
+{
+  std::vector<std::uint64_t> codes;
+  const Generation& last = octree.generations.back();
+  for (std::size_t i = 0; i < last.size(); ++i)
+  {
+    if (last.state[i] != OctantState::Background && less.generations.back().state[i] == OctantState::Background)
+    {
+      codes.push_back(last.code[i]);
+    }
+  }
+  return codes;
+}
+
 } // namespace
 
 TEST(SurvivorIslands, WhatIsSmallerThanTheShareIsGivenUpAndCounted)
@@ -65,9 +80,10 @@ TEST(SurvivorIslands, WhatIsSmallerThanTheShareIsGivenUpAndCounted)
     { second * 1.001, small + middle }, { 1.0, small + middle } };
   for (const Case& c : cases)
   {
-    std::uint64_t dropped = 99;
+    DroppedSurvivors dropped;
     const Octree kept = dropIslands(octree, c.share, dropped, execution);
-    EXPECT_EQ(dropped, c.dropped) << c.share;
+    EXPECT_EQ(dropped.octants, c.dropped) << c.share;
+    EXPECT_EQ(dropped.leaves, leavesOnlyIn(octree, kept)) << c.share;
     EXPECT_EQ(survivingCells(kept, 0, 32), large + middle + small - c.dropped) << c.share;
     EXPECT_EQ(survivingCells(kept, 0, 16), large);
     EXPECT_EQ(sameOctants(kept, octree), c.dropped == 0);
@@ -80,9 +96,9 @@ TEST(SurvivorIslands, TheOctreeStaysConsistent)
   Execution execution;
   PreparedViews views;
   const Octree octree = threeCubes(views);
-  std::uint64_t dropped = 0;
+  DroppedSurvivors dropped;
   const Octree kept = dropIslands(octree, 0.5, dropped, execution);
-  ASSERT_GT(dropped, 0u);
+  ASSERT_GT(dropped.octants, 0u);
   EXPECT_EQ(countSurvivorComponents(kept, execution), 1u);
   std::uint64_t leaves = 0;
   for (int g = kept.treeGeneration; g <= kept.lattice.depth; ++g)
@@ -103,9 +119,9 @@ TEST(SurvivorIslands, TheOctreeStaysConsistent)
   }
   leaves += leafCells(kept, OctantState::Intersection).size();
   EXPECT_EQ(leaves, survivingCells(kept, 0, 32));
-  std::uint64_t again = 99;
+  DroppedSurvivors again;
   EXPECT_TRUE(sameOctants(dropIslands(kept, 1.0, again, execution), kept));
-  EXPECT_EQ(again, 0u);
+  EXPECT_EQ(again.octants, 0u);
 }
 
 TEST(SurvivorIslands, NoiseLeavesTheLargestAlone)
@@ -117,9 +133,9 @@ TEST(SurvivorIslands, NoiseLeavesTheLargestAlone)
     auto captured = viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(8, 120), 120);
     disturb(captured, kind, random);
     const Octree octree = carveViews(prepareViews(captured), unitCube(), 5, kind == 4 ? 3 : 0);
-    std::uint64_t dropped = 0;
+    DroppedSurvivors dropped;
     const Octree kept = dropIslands(octree, 1.0, dropped, execution);
-    EXPECT_EQ(survivingCells(kept, 0, 32) + dropped, survivingCells(octree, 0, 32));
+    EXPECT_EQ(survivingCells(kept, 0, 32) + dropped.octants, survivingCells(octree, 0, 32));
     // Of several equally large ones all stay, and nothing is split.
     const std::uint64_t components = countSurvivorComponents(kept, execution);
     EXPECT_GE(components, 1u);
@@ -131,15 +147,15 @@ TEST(SurvivorIslands, NoiseLeavesTheLargestAlone)
 TEST(SurvivorIslands, NothingToGiveUp)
 {
   Execution execution;
-  std::uint64_t dropped = 99;
+  DroppedSurvivors dropped;
   EXPECT_TRUE(dropIslands(Octree(), 0.5, dropped, execution).generations.empty());
-  EXPECT_EQ(dropped, 0u);
+  EXPECT_EQ(dropped.octants, 0u);
 }
 
 TEST(SurvivorIslands, RefusesSharesOutOfRange)
 {
   Execution execution;
-  std::uint64_t dropped = 0;
+  DroppedSurvivors dropped;
   for (const double share : { -0.1, 1.5, std::numeric_limits<double>::quiet_NaN() })
   {
     try
@@ -154,4 +170,61 @@ TEST(SurvivorIslands, RefusesSharesOutOfRange)
         << error.what();
     }
   }
+}
+
+TEST(SurvivorIslands, DebrisIsWhatTheRepairedOctreeHasAsBackground)
+{
+  Execution execution;
+  PreparedViews views;
+  const Octree octree = threeCubes(views);
+  DroppedSurvivors islands;
+  const Octree repaired = dropIslands(octree, 0.5, islands, execution);
+  ASSERT_GT(islands.leaves.size(), 0u);
+  std::vector<std::uint64_t> expected; // of intersection octants only
+  for (const std::uint64_t leaf : islands.leaves)
+  {
+    if (octree.locate(fromMorton(leaf)).state == OctantState::Intersection)
+    {
+      expected.push_back(leaf);
+    }
+  }
+  ASSERT_FALSE(expected.empty());
+  EXPECT_EQ(debrisLeaves(octree, repaired), expected);
+  EXPECT_TRUE(debrisLeaves(repaired, octree).empty());
+  EXPECT_TRUE(debrisLeaves(octree, octree).empty());
+}
+
+TEST(SurvivorIslands, LeavesAreGivenUpWhereTheySurvive)
+{
+  Execution execution;
+  PreparedViews views;
+  const Octree octree = threeCubes(views);
+  std::vector<std::uint64_t> some, survived;
+  for (std::uint64_t leaf = 0; leaf < 32 * 32 * 32; leaf += 3)
+  {
+    some.push_back(leaf); // background, coarser ones and survivors
+    const Octree::Location at = octree.locate(fromMorton(leaf));
+    if (at.generation == octree.lattice.depth && at.state != OctantState::Background)
+    {
+      survived.push_back(leaf);
+    }
+  }
+  ASSERT_FALSE(survived.empty());
+  DroppedSurvivors dropped;
+  dropped.octants = 7; // added to
+  const Octree kept = dropLeaves(octree, some, dropped);
+  EXPECT_EQ(dropped.leaves, survived);
+  EXPECT_EQ(dropped.octants, 7 + survived.size());
+  EXPECT_EQ(leavesOnlyIn(octree, kept), survived);
+  EXPECT_EQ(survivingCells(kept, 0, 32) + survived.size(), survivingCells(octree, 0, 32));
+  std::uint32_t blocks = 0;
+  for (std::size_t i = 0; i < kept.generations.back().size(); ++i)
+  {
+    ASSERT_EQ(kept.generations.back().childBlock[i], blocks);
+    blocks += kept.generations.back().state[i] == OctantState::Intersection;
+  }
+  DroppedSurvivors none;
+  EXPECT_TRUE(sameOctants(dropLeaves(octree, {}, none), octree));
+  EXPECT_TRUE(dropLeaves(Octree(), some, none).generations.empty());
+  EXPECT_EQ(none.octants, 0u);
 }

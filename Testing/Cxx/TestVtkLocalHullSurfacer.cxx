@@ -9,6 +9,8 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkHyperTreeGrid.h"
+#include "vtkIntArray.h"
+#include "vtkPolyData.h"
 #include "vtkTable.h"
 
 #include <cmath>
@@ -193,13 +195,19 @@ TEST(VtkLocalHullSurfacer, GivesUpIslandsAndCountsThem)
   EXPECT_EQ(field(evaluator->GetOutput(), "Sound"), 1);
   const double dropped = field(pipeline.surface->GetOutput(), "DroppedOctants");
   EXPECT_GT(dropped, 0);
+  EXPECT_EQ(field(evaluator->GetOutput(), "LostSurface"), 0) << "given up, not lost";
+  vtkNew<vtkPolyData> silent;
+  silent->DeepCopy(pipeline.surface->GetOutput());
+  silent->GetFieldData()->RemoveArray("DroppedLeaves");
+  evaluator->SetInputData(0, silent);
+  evaluator->Update();
   EXPECT_GT(field(evaluator->GetOutput(), "LostSurface"), 0) << "all survivors are asked for";
   EXPECT_LE(field(evaluator->GetOutput(), "LostSurface"), dropped);
-  evaluator->SetIslandShare(0.3);
-  evaluator->Update();
-  EXPECT_EQ(field(evaluator->GetOutput(), "LostSurface"), 0);
-  evaluator->SetIslandShare(-1.0);
-  expectError(evaluator, {"island share -1"});
+  vtkNew<vtkIntArray> wrong;
+  wrong->SetName("DroppedLeaves");
+  silent->GetFieldData()->AddArray(wrong);
+  silent->Modified();
+  expectError(evaluator, {"the surface", "DroppedLeaves", "type int", "unsigned 64-bit"});
 }
 
 TEST(VtkLocalHullSurfacer, GivesNormalsAndPrecision)

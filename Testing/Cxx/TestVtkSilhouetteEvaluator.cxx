@@ -124,9 +124,7 @@ TEST(VtkSilhouetteEvaluator, IsAProperFilter)
 {
   auto evaluator = evaluatorOf(sphere(1.0));
   evaluator->SetTruthData(sphere(1.1));
-  expectPrints(evaluator, {"IslandShare", "SampleSpacing"});
-  expectModifies(evaluator, [&] { evaluator->SetIslandShare(0.1); });
-  evaluator->SetIslandShare(0.0);
+  expectPrints(evaluator, {"SampleSpacing"});
   expectModifies(evaluator, [&] { evaluator->SetSampleSpacing(0.04); });
   expectProgress(evaluator);
   expectAbort(evaluator, 0.1);

@@ -202,7 +202,7 @@ class TestAbort(plugin.PluginTest):
                 (octree, "Depth", (5, 6), lambda data: data.GetMaxNumberOfTrees() == 0),
                 (cubes, "GenerateNormals", (1, 0), lambda data: data.GetNumberOfCells() == 0),
                 (hulls, "GenerateNormals", (1, 0), lambda data: data.GetNumberOfCells() == 0),
-                (judge, "IslandShare", (0.001, 0), lambda data: data.GetNumberOfRows() == 0)):
+                (judge, "SampleSpacing", (0.5, 0), lambda data: data.GetNumberOfRows() == 0)):
             with self.subTest(source.GetXMLName()):
                 heard = []
 

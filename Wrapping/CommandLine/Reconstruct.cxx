@@ -122,7 +122,8 @@ void Reconstruct::addLocalHulls()
   this->App
     ->add_option("--drop-islands", this->Options.islandShare, "Give up components of the octants that survive where "
                                                               "they have fewer than this share of the largest one's, 0 "
-                                                              "to 1; they are counted in the metrics, dropped_octants. "
+                                                              "to 1, and octants that only false pixels uphold; they are "
+                                                              "counted in the metrics, dropped_octants. "
                                                               "Without this option all are kept")
     ->type_name("[SHARE]")
     ->expected(0, 1)

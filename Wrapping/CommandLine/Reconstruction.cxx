@@ -8,6 +8,8 @@
 #include "Preview.h"
 #include "Reconstruct.h"
 
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
 #include "vtkHyperTreeGrid.h"
 #include "vtkLocalHullSurfacer.h"
 #include "vtkPartitionedDataSetCollection.h"
@@ -175,10 +177,6 @@ void Reconstruction::setLocalHulls()
   this->Hulls->SetThinHulls(options.thinHulls);
   this->Hulls->SetJoinHandles(options.handles);
   this->Hulls->SetFillTunnels(options.tunnels);
-  if (options.surface == "local-hull")
-  {
-    this->Evaluator->SetIslandShare(options.islandShare); // what is given up is dropped, not lost
-  }
 }
 
 void Reconstruction::carve()
@@ -304,6 +302,10 @@ void Reconstruction::evaluate(vtkPolyData* stored)
   {
     this->Evaluator->SetTruthData(this->Truth);
   }
+  if (vtkDataArray* given = this->Surface->GetFieldData()->GetArray("DroppedLeaves"))
+  {
+    stored->GetFieldData()->AddArray(given); // what is given up is dropped, not lost
+  }
   this->Evaluator->SetInputData(stored);
   this->Run.run(this->Evaluator, "evaluate", "judging the mesh");
   const std::uint64_t lostNow = fieldCount(this->Evaluator->GetOutput(), "LostSurface");
@@ -312,7 +314,7 @@ void Reconstruction::evaluate(vtkPolyData* stored)
   {
     this->Found["lost_surface"] = nullptr; // judged against the whole octree only
   }
-  this->DroppedOctants = fieldCount(this->Surface, "DroppedOctants") + // islands
+  this->DroppedOctants = fieldCount(this->Surface, "DroppedOctants") + // islands and debris
     (dropped ? lostNow - std::min(lost, lostNow) : 0);
 }
 

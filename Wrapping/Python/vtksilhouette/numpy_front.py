@@ -104,8 +104,8 @@ def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", 
     For "local-hull" alone:
     mode         "robust" (default): corrected by what the views agree on; "thesis": one convex hull for each chain
                  of slices, combined
-    drop_islands 0 to 1: pieces of the octree with fewer octants than this share of the largest one's are given up;
-                 0 keeps all
+    drop_islands 0 to 1: pieces of the octree with fewer octants than this share of the largest one's are given up,
+                 and octants that only false pixels uphold; 0 keeps all
     repair       fill what a single view cuts deep and wide out of the object
     alignment    shift views against an error of their cameras, where one is measured
     correction   move the surface to where the views agree on average
