@@ -81,7 +81,10 @@ void measure(const Mesh& mesh, const Method& method, Trial& trial, Row& row)
   const Octree& octree = trial.octree(method.backgroundVotes);
   row.value[SurvivorPieces] = double(trial.survivorPieces(method.backgroundVotes));
   measureSoundness(mesh, trial, row);
-  row.value[Lost] = double(lostSurvivors(octree, mesh, trial.execution()));
+  DroppedSurvivors dropped;
+  row.value[Lost] =
+      double(lostSurvivors(dropLeaves(octree, trial.dropped.leaves, dropped), mesh, trial.execution()));
+  row.value[Dropped] = double(trial.dropped.octants);
   if (measuresMore(method, trial))
   {
     row.value[XorShare] = totalAgreement(compareSilhouettes(mesh, trial.views(), trial.execution())).xorShare;
@@ -111,6 +114,7 @@ Row runMethod(const Method& method, Trial& trial, const Case& at, const Settings
   row.method = method.name;
   row.settings = settings;
   trial.note.clear();
+  trial.dropped = {};
   try
   {
     makeReady(method, trial);

@@ -92,8 +92,10 @@ Mesh globalHull(Trial& trial)
 
 Mesh localHulls(Trial& trial, const LocalHullOptions& options)
 {
-  return localHullSurface(trial.imperfect(), trial.octree(0), &trial.prepared(), options, trial.execution())
-      .mesh;
+  LocalHullSurface surface =
+      localHullSurface(trial.imperfect(), trial.octree(0), &trial.prepared(), options, trial.execution());
+  trial.dropped = std::move(surface.dropped);
+  return std::move(surface.mesh);
 }
 
 std::vector<Method> makeTable()
@@ -152,7 +154,7 @@ const Stage Stages[] = {
     {"no-thin-hulls", "without thin hulls", [](LocalHullOptions& o) { o.thinHulls = false; }},
     {"no-bridges", "without bridges", [](LocalHullOptions& o) { o.bridgeGap = 0; }},
     {"no-cavities", "without the filling of cavities", [](LocalHullOptions& o) { o.fillCavities = false; }},
-    {"no-islands", "without islands: small ones dropped",
+    {WithoutIslands, "without islands: small ones and debris dropped",
      [](LocalHullOptions& o) { o.islandShare = SmallIslands; }}};
 
 std::vector<Method> makeAblations()

@@ -34,6 +34,9 @@ struct Method
   std::function<Mesh(Trial&)> make;
 };
 
+/** The ablation that gives islands and debris up. */
+inline constexpr const char* WithoutIslands = "no-islands";
+
 const std::vector<Method>& methods();
 /** The robust local hulls, each without one of their stages. */
 const std::vector<Method>& ablations();

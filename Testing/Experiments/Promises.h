@@ -21,6 +21,9 @@ struct Promise
 
 const std::vector<Promise>& promises();
 
+/** What holds beside these for a solid in flipped pixels once islands and debris are given up. */
+const std::vector<Promise>& islandPromises();
+
 /** Where an order applies. */
 enum class Where
 {
@@ -42,7 +45,7 @@ struct Order
 /** The orders that are asserted: the place to tighten. */
 const std::vector<Order>& orders();
 
-/** Is the row's surface one of ours, which keep the promises? */
+/** Is the row's surface one of ours, which keep the promises? Those without a stage may not. */
 bool isPromising(const Row& row);
 
 /** A sentence for each promise that is broken and each order that does not hold. */

@@ -96,8 +96,7 @@ const char* const Stages = R"(
 The robust local hulls without one of their stages at a time. First the error of all stages together, the mean
 over the objects, in octants; then the errors as ratios to it in the same runs, the geometric mean over the
 objects, bold where leaving the stage out makes the error a tenth larger. Behind them the number of runs whose
-surface has several pieces, another genus than the solid, or breaks one of the promises (that of having lost no
-octants is given up where islands are dropped).
+surface has several pieces, another genus than the solid, or breaks one of the promises.
 )";
 
 const char* const Scaling = R"(
@@ -112,10 +111,11 @@ depth, which is ever more octants, explains a small part of it (method.md, secti
 )";
 
 const char* const Islands = R"(
-## Salt and pepper, with its islands dropped
+## Salt and pepper, with islands and debris dropped
 
-Flipped pixels that no filter removes leave islands among the survivors, which the local hulls keep, as they promise to lose no
-octant. With `--drop-islands` components that are smaller than a twentieth of the largest one are given up, and counted.
+Flipped pixels that no filter removes leave islands among the survivors, and debris on the object, which the local hulls keep, as they
+promise to lose no octant. With `--drop-islands` the octants that only false pixels uphold and the components that are smaller than a twentieth
+of the largest one are given up, and counted. Beside it voting at the best of its shares (1, 2 or 3 background votes).
 )";
 
 const char* const Votes = R"(

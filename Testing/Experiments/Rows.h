@@ -28,7 +28,8 @@ enum Column : std::size_t
   Pieces,
   SurvivorPieces, ///< of the octree that the surface was made from
   Genus,
-  Lost,       ///< survivors of that octree that the surface neither crosses nor encloses
+  Lost,       ///< survivors of that octree that the surface neither crosses nor encloses, nor the method gave up
+  Dropped,    ///< survivors that the method gave up by option
   Error,      ///< mean distance to the reference, mean of both directions
   ErrorTo,    ///< mesh to reference
   ErrorFrom,  ///< reference to mesh

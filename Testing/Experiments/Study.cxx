@@ -231,7 +231,8 @@ void runIslands(const StudyOptions& options)
   islands.results = islandsFile("");
   islands.seeds = {options.seeds.front()};
   islands.noises = {"pixels"};
-  islands.methods = {"cubes-exact", "hulls-robust", "no-islands"};
+  islands.methods = {"cubes-exact",  "consistent-1", "consistent-2",
+                     "consistent-3", "hulls-robust", WithoutIslands};
   runStudy(islands);
 }
 

@@ -9,6 +9,7 @@
 #include "Octree.h"
 #include "PreparedViews.h"
 #include "SmpExecution.h"
+#include "SurvivorIslands.h"
 #include "Yardstick.h"
 
 #include <chrono>
@@ -73,7 +74,8 @@ public:
   const Subject& subject() const { return this->TheSubject; }
   Execution& execution() { return this->TheExecution; }
 
-  std::string note; ///< what a method has to say of its run; emptied before the next
+  std::string note;         ///< what a method has to say of its run; emptied before the next
+  DroppedSurvivors dropped; ///< what it gave up; likewise
 
 private:
   Subject& TheSubject;

@@ -89,11 +89,12 @@ void addSteps(CLI::App& program, StudyOptions& study, Steps& steps)
        "Depths 6 to 9 with images of 512, 1024 and 2048 pixels, contour noise of half an octant, into "
        "OUTPUT/scaling.csv: unless said otherwise pebble and jug, the first seed");
   flag("--islands", steps.islands,
-       "Flipped pixels, with small islands kept and dropped, the first seed, into OUTPUT/islands.csv");
+       "Flipped pixels, with islands and debris kept and dropped, beside voting, the first seed, into "
+       "OUTPUT/islands.csv");
   flag("--votes", steps.votes, "The thesis's Table 6.1, into OUTPUT/votes.txt");
   flag("--figures", steps.figures, "The figures, into DOCUMENTATION/Figures");
   flag("--report", steps.report, "DOCUMENTATION/experiments.md, from what is in OUTPUT");
-  flag("--check", steps.check, "After the cases: fail where a promise is broken or an order does not hold");
+  flag("--check", steps.check, "After the cases and the islands: fail where a promise is broken or an order does not hold");
   flag("--resume", study.resume, "Go on with the results that are there");
   flag("--fresh", study.fresh, "Replace the results that are there");
   program.add_option("--output", study.output, "Folder of the results")->capture_default_str()->group(group);
@@ -104,9 +105,9 @@ void addSteps(CLI::App& program, StudyOptions& study, Steps& steps)
 }
 
 /** The number of what is broken, each said. */
-std::size_t check(const StudyOptions& study)
+std::size_t check(const std::filesystem::path& file)
 {
-  const std::vector<Row> rows = readRows(resultsFile(study.output));
+  const std::vector<Row> rows = readRows(file);
   const std::vector<std::string> broken = violations(rows);
   for (const std::string& text : broken)
   {
@@ -148,7 +149,16 @@ int runSteps(const StudyOptions& study, const Steps& steps)
   {
     writeReport(study.output, steps.documentation);
   }
-  return steps.check && check(study) > 0 ? 1 : 0;
+  std::size_t broken = 0;
+  if (steps.check && steps.study())
+  {
+    broken += check(resultsFile(study.output));
+  }
+  if (steps.check && (steps.all || steps.islands))
+  {
+    broken += check(islandsFile(study.output));
+  }
+  return broken > 0 ? 1 : 0;
 }
 
 int run(int argc, char** argv)
