@@ -84,10 +84,10 @@ const std::vector<Order>& orders()
                                            {"hulls-robust", "cubes-exact", Where::Noisy, 0.9, 0.0},
                                            {"hulls-robust", "consistent-1", Where::NoisyButPixels, 1.0, 0.0},
                                            {"hulls-robust", "consistent-2", Where::NoisyButPixels, 1.0, 0.0},
-                                           {WithoutIslands, "cubes-exact", Where::Noisy, 0.5, 0.0},
-                                           {WithoutIslands, "consistent-1", Where::Noisy, 0.5, 0.0},
-                                           {WithoutIslands, "consistent-2", Where::Noisy, 0.5, 0.0},
-                                           {WithoutIslands, "consistent-3", Where::Noisy, 0.5, 0.0}};
+                                           {WithoutIslands, "cubes-exact", Where::Noisy, 0.6, 0.0},
+                                           {WithoutIslands, "consistent-1", Where::Noisy, 0.6, 0.0},
+                                           {WithoutIslands, "consistent-2", Where::Noisy, 0.6, 0.0},
+                                           {WithoutIslands, "consistent-3", Where::Noisy, 0.6, 0.0}};
   return table;
 }
 
