@@ -31,6 +31,7 @@ void check(const FieldCorrectionOptions& options)
   require(options.smallestDeficit >= 0.0, "smallest deficit", options.smallestDeficit);
   require(options.smallestShift >= 0.0, "smallest shift", options.smallestShift);
   require(options.alignments >= 1, "number of alignments", options.alignments);
+  require(options.modelDissent >= 0.0 && options.modelDissent <= 1.0, "model dissent", options.modelDissent);
   require(options.smoothing >= 0.0, "smoothing", options.smoothing);
   require(options.greatestSmoothing >= 0.0, "greatest smoothing", options.greatestSmoothing);
   require(options.gentleness >= 0.0, "gentleness", options.gentleness);
@@ -86,13 +87,17 @@ bool allAtMost(const float* values, float most)
   return std::all_of(values, values + BlockPoints, [most](float value) { return value <= most; });
 }
 
-SILHOUETTE_VECTORISED void keepLeast(const float* distances, float* least, float* second)
+/** Sort a block of distances into the `rank` least so far, a block each, the least first; `distances` is used up. */
+SILHOUETTE_VECTORISED void keepLeast(float* distances, float* least, int rank)
 {
-  for (std::size_t n = 0; n < BlockPoints; ++n)
+  for (int k = 0; k < rank; ++k, least += BlockPoints)
   {
-    const float greater = least[n] < distances[n] ? distances[n] : least[n];
-    second[n] = greater < second[n] ? greater : second[n];
-    least[n] = distances[n] < least[n] ? distances[n] : least[n];
+    for (std::size_t n = 0; n < BlockPoints; ++n)
+    {
+      const float greater = least[n] < distances[n] ? distances[n] : least[n];
+      least[n] = distances[n] < least[n] ? distances[n] : least[n];
+      distances[n] = greater;
+    }
   }
 }
 
@@ -128,7 +133,7 @@ public:
       result.alignment = sum / double(this->All.size());
     }
     execution.checkpoint(0.5);
-    this->findLeast(execution);
+    this->findLeast(this->modelRank(), execution);
     if (this->Options.alignViews)
     {
       result.remainingDeficit = std::max(0.0,
@@ -159,7 +164,7 @@ private:
       }
       if (round + 1 < this->Options.alignments)
       {
-        this->findLeast(execution);
+        this->findLeast(1, execution);
         model = this->Least.contourMesh(execution);
       }
       execution.checkpoint(0.5 * (round + 1) / this->Options.alignments);
@@ -173,36 +178,46 @@ private:
     FieldViews::Region region;
   };
 
-  /** The least and the second-least distance over the observed silhouettes. */
-  void findLeast(Execution& execution)
+  /** Of the distances in the observed silhouettes, which is the model's? */
+  int modelRank() const
   {
-    this->Second.assign(this->Least.size(), 0.0f);
+    const int views = this->Views.size();
+    return std::min(std::max(2, int(std::lround(this->Options.modelDissent * views))), views);
+  }
+
+  /** The least and the `rank`-th least distance over the observed silhouettes. */
+  void findLeast(int rank, Execution& execution)
+  {
+    this->Ranked.resize(this->Least.size());
     const float far = float(this->Views.reach());
     execution.forRanges(this->Least.size() / BlockPoints, 8,
       [&](std::size_t first, std::size_t last)
       {
         std::vector<Near> near;
+        std::vector<float> kept(std::size_t(rank) * BlockPoints);
         for (std::size_t block = first; block < last; ++block)
         {
           const LatticePoint lowest = fromMorton(this->Least.code(block * BlockPoints));
           this->findNear(lowest, nullptr, near);
-          float* least = &this->Least.values()[block * BlockPoints];
-          float* second = &this->Second[block * BlockPoints];
-          std::fill(least, least + BlockPoints, far);
-          std::fill(second, second + BlockPoints, far);
+          std::fill(kept.begin(), kept.end(), far);
+          const float* const greatest = &kept[(rank - 1) * BlockPoints];
           float distance[BlockPoints];
-          for (std::size_t i = 0; i < near.size() && !allAtMost(second, -far); ++i)
+          for (std::size_t i = 0; i < near.size() && !allAtMost(greatest, -far); ++i)
           {
             const int view = near[i].view;
             this->Views.insideBlock(view, this->Views.observed(view), lowest, near[i].region, distance);
-            keepLeast(distance, least, second);
+            keepLeast(distance, kept.data(), rank);
           }
+          float* const least = &this->Least.values()[block * BlockPoints];
+          float* const ranked = &this->Ranked[block * BlockPoints];
+          std::copy(kept.begin(), kept.begin() + BlockPoints, least);
+          std::copy(greatest, greatest + BlockPoints, ranked);
           const bool atBorder = this->touchesBorder(lowest);
           for (std::size_t n = 0; n < BlockPoints && atBorder; ++n)
           {
             if (this->Views.lattice().onBorder(lowest + fromMorton(n)))
             {
-              least[n] = second[n] = -far;
+              least[n] = ranked[n] = -far;
             }
           }
         }
@@ -240,7 +255,7 @@ private:
     BrickField model = this->Least;
     for (std::size_t n = 0; n < model.size(); ++n)
     {
-      model.values()[n] = std::min(this->Second[n], model.values()[n] + float(2.0 * deficit));
+      model.values()[n] = std::min(this->Ranked[n], model.values()[n] + float(2.0 * deficit));
     }
     smoothGently(model, sigma, deficit * this->Options.gentleness, execution);
     execution.checkpoint(0.75);
@@ -345,7 +360,7 @@ private:
   const Mesh& Surface;
   std::vector<int> All;
   BrickField Least;
-  std::vector<float> Second;
+  std::vector<float> Ranked; ///< what the model is made of, at the same points
 };
 
 } // namespace

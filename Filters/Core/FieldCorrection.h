@@ -7,7 +7,7 @@
  * With g_i(x) the signed distance of a point in view i's observed silhouette and d_i(x) that in the silhouette
  * of a model, the field is min_i d_i + sum_i w_i (g_i - d_i) / sum_i w_i with w_i = exp(-(d_i - min d)^2 / 2
  * h^2). A model whose silhouettes are the observed ones is left as it is, whatever its shape; and parts that no
- * silhouette shows come from min_i d_i. The model is the second-least g_i, no further than twice the deficit
+ * silhouette shows come from min_i d_i. The model is the n-th least g_i, n a ninth of the views, no further than twice the deficit
  * outside of the least, smoothed; where it is near-convex, its hull.
  */
 #pragma once
@@ -37,6 +37,11 @@ struct FieldCorrectionOptions
    */
   double smallestShift = 0.025;
   int alignments = 2; ///< rounds of shifting, 1 or more; larger comes closer and costs in proportion
+  /**
+   * Share of the views, 0 to 1: the model's value at a point is the n-th least of the views' distances, n being this share of them, at least 2; larger
+   * keeps more of what is nearly as thin as the noise.
+   */
+  double modelDissent = 0.11;
   /**
    * Octants for each octant of deficit, 0 or more: standard deviation of the field's smoothing; larger is
    * smoother.

@@ -142,6 +142,7 @@ public:
     pair(self.SmallestDeficit, options.correction.smallestDeficit);
     pair(self.SmallestShift, options.correction.smallestShift);
     pair(self.HullConvexity, options.correction.hullConvexity);
+    pair(self.ModelDissent, options.correction.modelDissent);
     pair(self.Smoothing, options.correction.smoothing);
     pair(self.GreatestSmoothing, options.correction.greatestSmoothing);
     pair(self.Gentleness, options.correction.gentleness);
@@ -283,6 +284,7 @@ void vtkLocalHullSurfacer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SmallestDeficit: " << this->SmallestDeficit << "\n";
   os << indent << "SmallestShift: " << this->SmallestShift << "\n";
   os << indent << "HullConvexity: " << this->HullConvexity << "\n";
+  os << indent << "ModelDissent: " << this->ModelDissent << "\n";
   os << indent << "Smoothing: " << this->Smoothing << "\n";
   os << indent << "GreatestSmoothing: " << this->GreatestSmoothing << "\n";
   os << indent << "Gentleness: " << this->Gentleness << "\n";

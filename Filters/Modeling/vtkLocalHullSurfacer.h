@@ -297,6 +297,16 @@ public:
 
   ///@{
   /**
+   * CorrectField: share of the views that may cut deeper than the model's surface does; the n-th least distance counts, n being
+   * this share of the views, at least 2, and no further out than twice the deficit. 0 to 1, default 0.11. Larger
+   * keeps more of what is nearly as thin as the noise.
+   */
+  vtkSetMacro(ModelDissent, double);
+  vtkGetMacro(ModelDissent, double);
+  ///@}
+
+  ///@{
+  /**
    * CorrectField: standard deviation of the field's smoothing, for each octant of deficit; leaf octants, at
    * least 0, default 10. Larger is smoother.
    */
@@ -484,6 +494,7 @@ protected:
   double SmallestDeficit;
   double SmallestShift;
   double HullConvexity;
+  double ModelDissent;
   double Smoothing;
   double GreatestSmoothing;
   double Gentleness;
