@@ -182,7 +182,7 @@ private:
   int modelRank() const
   {
     const int views = this->Views.size();
-    return std::min(std::max(2, int(std::lround(this->Options.modelDissent * views))), views);
+    return std::min(std::max(2, int(std::lround(this->Options.modelDissent * views / this->Scale))), views);
   }
 
   /** The least and the `rank`-th least distance over the observed silhouettes. */

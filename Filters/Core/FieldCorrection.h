@@ -39,7 +39,7 @@ struct FieldCorrectionOptions
   int alignments = 2; ///< rounds of shifting, 1 or more; larger comes closer and costs in proportion
   /**
    * Share of the views, 0 to 1: the model's value at a point is the n-th least of the views' distances, n being this share of them, at least 2; larger
-   * keeps more of what is nearly as thin as the noise.
+   * keeps more of what is nearly as thin as the noise. Beyond depth 7 in inverse proportion to 2^depth, since fewer views compete within an octant.
    */
   double modelDissent = 0.11;
   /**

@@ -299,7 +299,8 @@ public:
   /**
    * CorrectField: share of the views that may cut deeper than the model's surface does; the n-th least distance counts, n being
    * this share of the views, at least 2, and no further out than twice the deficit. 0 to 1, default 0.11. Larger
-   * keeps more of what is nearly as thin as the noise.
+   * keeps more of what is nearly as thin as the noise. The share is that of depth 7 and less deep ones; deeper it is in inverse
+   * proportion to 2^depth.
    */
   vtkSetMacro(ModelDissent, double);
   vtkGetMacro(ModelDissent, double);

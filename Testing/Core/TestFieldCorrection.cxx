@@ -113,11 +113,11 @@ Capture& captureOf(SyntheticShape shape)
 /** The capture as it is now, marching cubes of it and the field's correction. */
 struct Corrected
 {
-  explicit Corrected(const Capture& capture, const FieldCorrectionOptions& options = {})
+  explicit Corrected(const Capture& capture, const FieldCorrectionOptions& options = {}, int depth = Depth)
     : views(capture.prepared())
   {
     Execution execution;
-    const Octree octree = carveViews(this->views, unitCube(1.05), Depth);
+    const Octree octree = carveViews(this->views, unitCube(1.05), depth);
     this->lattice = octree.lattice;
     this->exact = votingMarchingCubes(octree, this->views, {}, execution).mesh;
     this->correction = this->correct(options, execution);
@@ -400,6 +400,22 @@ TEST(FieldCorrection, ViewsThatMayDissentFromTheModelLeaveMoreOfAThinHandle)
   none.modelDissent = 0.0;
   EXPECT_EQ(Corrected(jug, same).correction.field->values(), Corrected(jug, none).correction.field->values())
     << "the second-least is the least that counts";
+}
+
+/** Of 24 views the third-least distance counts at depth 7, but the second-least at depth 8, where fewer compete. */
+TEST(FieldCorrection, FewerViewsMayDissentWhereOctantsAreSmaller)
+{
+  Capture& capture = captureOf(SyntheticShape::Sphere);
+  capture.draw(0.8, 0, 1);
+  FieldCorrectionOptions third, second;
+  third.alignViews = second.alignViews = false; // for time's sake
+  second.modelDissent = 0.0;
+  for (const int depth : { 7, 8 })
+  {
+    const Corrected corrected(capture, third, depth), before(capture, second, depth);
+    ASSERT_TRUE(corrected.correction.field && before.correction.field);
+    EXPECT_EQ(corrected.correction.field->values() == before.correction.field->values(), depth == 8) << depth;
+  }
 }
 
 TEST(FieldCorrection, ASurfaceThatViewsMayDissentFromIsNotPulledBack)
