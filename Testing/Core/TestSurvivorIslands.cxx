@@ -40,6 +40,18 @@ std::uint64_t survivingCells(const Octree& octree, int low, int high)
   return count;
 }
 
+/** The number of intersection octants, as which childBlock has to count them. */
+std::uint32_t countedBlocks(const Generation& generation)
+{
+  std::uint32_t blocks = 0;
+  for (std::size_t i = 0; i < generation.size(); ++i)
+  {
+    EXPECT_EQ(generation.childBlock[i], blocks);
+    blocks += generation.state[i] == OctantState::Intersection;
+  }
+  return blocks;
+}
+
 /** Codes of the last generation's survivors of `octree` that `less` calls background. */
 std::vector<std::uint64_t> leavesOnlyIn(const Octree& octree, const Octree& less)
 {
@@ -105,12 +117,7 @@ TEST(SurvivorIslands, TheOctreeStaysConsistent)
   {
     const Generation& generation = kept.generations[g];
     EXPECT_EQ(generation.code, octree.generations[g].code);
-    std::uint32_t blocks = 0;
-    for (std::size_t i = 0; i < generation.size(); ++i)
-    {
-      EXPECT_EQ(generation.childBlock[i], blocks);
-      blocks += generation.state[i] == OctantState::Intersection;
-    }
+    const std::uint32_t blocks = countedBlocks(generation);
     if (g < kept.lattice.depth)
     {
       EXPECT_EQ(kept.generations[g + 1].size(), 8u * blocks);
@@ -217,12 +224,7 @@ TEST(SurvivorIslands, LeavesAreGivenUpWhereTheySurvive)
   EXPECT_EQ(dropped.octants, 7 + survived.size());
   EXPECT_EQ(leavesOnlyIn(octree, kept), survived);
   EXPECT_EQ(survivingCells(kept, 0, 32) + survived.size(), survivingCells(octree, 0, 32));
-  std::uint32_t blocks = 0;
-  for (std::size_t i = 0; i < kept.generations.back().size(); ++i)
-  {
-    ASSERT_EQ(kept.generations.back().childBlock[i], blocks);
-    blocks += kept.generations.back().state[i] == OctantState::Intersection;
-  }
+  countedBlocks(kept.generations.back());
   DroppedSurvivors none;
   EXPECT_TRUE(sameOctants(dropLeaves(octree, {}, none), octree));
   EXPECT_TRUE(dropLeaves(Octree(), some, none).generations.empty());
