@@ -20,6 +20,7 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <memory>
 
 using namespace silhouette::modeling;
 
@@ -37,12 +38,17 @@ silhouette::Mesh nonEmptyMesh(vtkPolyData* polyData, const char* what)
 }
 
 /** The octree without what the surface says was given up. */
-silhouette::Octree withoutDropped(const std::shared_ptr<const silhouette::Octree>& octree, vtkPolyData* surface)
+std::shared_ptr<const silhouette::Octree> withoutDropped(
+    const std::shared_ptr<const silhouette::Octree>& octree, vtkPolyData* surface)
 {
   std::vector<std::uint64_t> leaves = getUnsignedFields(surface, "DroppedLeaves", "the surface");
+  if (leaves.empty())
+  {
+    return octree;
+  }
   std::sort(leaves.begin(), leaves.end());
   silhouette::DroppedSurvivors dropped;
-  return silhouette::dropLeaves(*octree, leaves, dropped);
+  return std::make_shared<silhouette::Octree>(silhouette::dropLeaves(*octree, leaves, dropped));
 }
 
 } // namespace
@@ -102,12 +108,11 @@ int vtkSilhouetteEvaluator::RequestData(vtkInformation* request, vtkInformationV
     double spacing = this->SampleSpacing;
     if (grid)
     {
-      const silhouette::Octree octree =
-          withoutDropped(sharedOctree(grid), vtkPolyData::GetData(inputs[0]));
+      const auto octree = withoutDropped(sharedOctree(grid), vtkPolyData::GetData(inputs[0]));
       silhouette::Phase covering(execution, 0.6, 0.7);
-      setField(table, "LostSurface", std::uint64_t(silhouette::lostSurvivors(octree, mesh, covering)));
-      setField(table, "LeafEdge", octree.lattice.leafEdge());
-      spacing = spacing == 0.0 ? octree.lattice.leafEdge() : spacing;
+      setField(table, "LostSurface", std::uint64_t(silhouette::lostSurvivors(*octree, mesh, covering)));
+      setField(table, "LeafEdge", octree->lattice.leafEdge());
+      spacing = spacing == 0.0 ? octree->lattice.leafEdge() : spacing;
     }
     if (truthData)
     {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldCorrection.h"
 
-#include "CarvingTestCaptures.h"
+#include "FieldCorrectionScene.h"
 #include "MeshDistance.h"
-#include "SyntheticCapture.h"
-#include "SyntheticShapes.h"
 #include "ViewAlignment.h"
 
 #include <Eigen/Cholesky>
@@ -20,9 +18,6 @@ using namespace silhouette::test;
 namespace
 {
 
-constexpr int Size = 160;
-constexpr int Depth = 5;
-
 /** Stops at the given question for it. */
 class CancelledAt : public Execution
 {
@@ -33,105 +28,6 @@ public:
   }
   bool cancelled() const override { return --this->Left < 0; }
   mutable int Left;
-};
-
-/** A shape's capture, its noise drawn anew at will, and what exact marching cubes make of it. */
-class Capture
-{
-public:
-  explicit Capture(SyntheticShape shape)
-  {
-    SyntheticShapeOptions coarse;
-    coarse.refinement = 0.5;
-    this->Truth = syntheticShape(shape, coarse);
-    this->Options.photographs = false;
-    this->Options.views = 24;
-    this->Options.width = this->Options.height = Size;
-    Execution execution;
-    this->Views = synthesizeCapture(this->Truth, this->Options, execution);
-  }
-
-  void draw(double contour, double camera, std::uint64_t seed)
-  {
-    Execution execution;
-    auto options = this->Options;
-    options.noiseContour = contour;
-    options.noiseCamera = camera;
-    options.seed = seed;
-    redrawNoise(this->Views, this->Truth, options, execution);
-  }
-
-  PreparedViews prepared(bool clean = false) const
-  {
-    std::vector<View> views;
-    for (const auto& view : this->Views.views)
-    {
-      views.push_back({ view.name, clean ? view.trueProjection : view.projection, clean ? view.cleanMask : view.mask });
-    }
-    return prepareViews(views);
-  }
-
-  /** What the silhouettes can tell at best: the hull of the clean ones, by a finer lattice. */
-  const Mesh& cleanHull()
-  {
-    if (this->Hull.triangles.empty())
-    {
-      Execution execution;
-      const PreparedViews views = this->prepared(true);
-      this->Hull = votingMarchingCubes(carveViews(views, unitCube(1.05), 7), views, {}, execution).mesh;
-    }
-    return this->Hull;
-  }
-
-  /** For each view: what the reported projection adds to every pixel. */
-  std::vector<Vector2> applied() const
-  {
-    std::vector<Vector2> shifts;
-    for (const auto& view : this->Views.views)
-    {
-      const auto pixel = [](const Projection& P) { return Vector2(P(0, 3) / P(2, 3), P(1, 3) / P(2, 3)); };
-      shifts.push_back(pixel(view.projection) - pixel(view.trueProjection));
-    }
-    return shifts;
-  }
-
-  const SyntheticCapture& views() const { return this->Views; }
-
-private:
-  Mesh Truth;
-  SyntheticCaptureOptions Options;
-  SyntheticCapture Views;
-  Mesh Hull;
-};
-
-Capture& captureOf(SyntheticShape shape)
-{
-  static Capture sphere(SyntheticShape::Sphere), torus(SyntheticShape::Torus);
-  return shape == SyntheticShape::Sphere ? sphere : torus;
-}
-
-/** The capture as it is now, marching cubes of it and the field's correction. */
-struct Corrected
-{
-  explicit Corrected(const Capture& capture, const FieldCorrectionOptions& options = {}, int depth = Depth)
-    : views(capture.prepared())
-  {
-    Execution execution;
-    const Octree octree = carveViews(this->views, unitCube(1.05), depth);
-    this->lattice = octree.lattice;
-    this->exact = votingMarchingCubes(octree, this->views, {}, execution).mesh;
-    this->correction = this->correct(options, execution);
-  }
-
-  FieldCorrection correct(const FieldCorrectionOptions& options, Execution& execution) const
-  {
-    return correctField(this->exact, this->lattice, this->views, options, execution);
-  }
-
-  PreparedViews views;
-  Lattice lattice;
-  Mesh exact;
-  FieldCorrection correction;
 };
 
 double errorOf(const Mesh& mesh, const Mesh& hull, const Lattice& lattice)
@@ -369,7 +265,6 @@ TEST(FieldCorrection, TheHullIsTheBaseOfNearConvexModelsAlone)
 /** The jug's handle is two octants thick here, the noise a third of one: the second-least distance leaves crumbs of it. */
 TEST(FieldCorrection, ViewsThatMayDissentFromTheModelLeaveMoreOfAThinHandle)
 {
-  Execution execution;
   static Capture jug(SyntheticShape::Jug);
   const auto handlePoints = [](const Corrected& corrected)
   {

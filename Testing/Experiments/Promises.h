@@ -45,7 +45,7 @@ struct Order
 /** The orders that are asserted: the place to tighten. */
 const std::vector<Order>& orders();
 
-/** Is the row's surface one of ours, which keep the promises? Those without a stage may not. */
+/** Is the row's surface one of ours, which keep the promises? Of those that lack a stage, only the one that gives islands up has to. */
 bool isPromising(const Row& row);
 
 /** A sentence for each promise that is broken and each order that does not hold. */

@@ -169,7 +169,8 @@ class TestText(unittest.TestCase):
             setters |= set(re.findall(r"void (?:Set|Add)(\w+)\(", text))
             setters = {name for name in setters
                        if not re.search("To[A-Z]", name) and not name.endswith(("Connection", "Data"))}
-            self.assertTrue(setters, proxy.get("class"))
+            least = 1 if proxy.get("class") == "vtkSilhouetteEvaluator" else 2
+            self.assertGreaterEqual(len(setters), least, proxy.get("class"))
             commands = {each.get("command")[3:] for each in settable(proxy)}
             with self.subTest(proxy.get("class")):
                 missing = {name for name in setters - commands if (proxy.get("class"), name) not in NOT_IN_PROXIES}

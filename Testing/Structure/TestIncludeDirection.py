@@ -3,6 +3,7 @@
 
 import os
 import shutil
+import subprocess
 import tempfile
 import unittest
 
@@ -22,6 +23,15 @@ class TestTree(unittest.TestCase):
             if room != "Examples":
                 with self.subTest(room):
                     self.assertTrue(os.path.isdir(os.path.join(TREE, room)))
+
+
+    def test_the_top_level_holds_the_rooms_alone(self):
+        if not os.path.exists(os.path.join(TREE, ".git")):
+            self.skipTest("no git checkout: what is tracked is not known")
+        tracked = subprocess.run(["git", "-c", f"safe.directory={TREE}", "-C", TREE, "ls-files"], check=True, text=True,
+                                 stdout=subprocess.PIPE).stdout.splitlines()
+        folders = {path.split("/")[0] for path in tracked if "/" in path}
+        self.assertEqual(folders, {".ci", "CMake", "Documentation", "Examples", "Filters", "Testing", "Wrapping"})
 
 
 class TestCheck(unittest.TestCase):

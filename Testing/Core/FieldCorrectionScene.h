@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Synthesized captures whose noise is drawn anew at will, and their correction, for the tests of the corrected field.
+ */
+#pragma once
+
+#include "CarvingTestCaptures.h"
+#include "FieldCorrection.h"
+#include "SyntheticCapture.h"
+#include "SyntheticShapes.h"
+
+namespace silhouette::test
+{
+
+constexpr int Size = 160; ///< pixels
+constexpr int Depth = 5;
+
+/** A shape's capture, its noise drawn anew at will, and what exact marching cubes make of it. */
+class Capture
+{
+public:
+  explicit Capture(SyntheticShape shape)
+  {
+    SyntheticShapeOptions coarse;
+    coarse.refinement = 0.5;
+    this->Truth = syntheticShape(shape, coarse);
+    this->Options.photographs = false;
+    this->Options.views = 24;
+    this->Options.width = this->Options.height = Size;
+    Execution execution;
+    this->Views = synthesizeCapture(this->Truth, this->Options, execution);
+  }
+
+  void draw(double contour, double camera, std::uint64_t seed)
+  {
+    Execution execution;
+    auto options = this->Options;
+    options.noiseContour = contour;
+    options.noiseCamera = camera;
+    options.seed = seed;
+    redrawNoise(this->Views, this->Truth, options, execution);
+  }
+
+  PreparedViews prepared(bool clean = false) const
+  {
+    std::vector<View> views;
+    for (const auto& view : this->Views.views)
+    {
+      views.push_back({ view.name, clean ? view.trueProjection : view.projection, clean ? view.cleanMask : view.mask });
+    }
+    return prepareViews(views);
+  }
+
+  /** What the silhouettes can tell at best: the hull of the clean ones, by a finer lattice. */
+  const Mesh& cleanHull()
+  {
+    if (this->Hull.triangles.empty())
+    {
+      Execution execution;
+      const PreparedViews views = this->prepared(true);
+      this->Hull = votingMarchingCubes(carveViews(views, unitCube(1.05), 7), views, {}, execution).mesh;
+    }
+    return this->Hull;
+  }
+
+  /** For each view: what the reported projection adds to every pixel. */
+  std::vector<Vector2> applied() const
+  {
+    std::vector<Vector2> shifts;
+    for (const auto& view : this->Views.views)
+    {
+      const auto pixel = [](const Projection& P) { return Vector2(P(0, 3) / P(2, 3), P(1, 3) / P(2, 3)); };
+      shifts.push_back(pixel(view.projection) - pixel(view.trueProjection));
+    }
+    return shifts;
+  }
+
+  const SyntheticCapture& views() const { return this->Views; }
+
+private:
+  Mesh Truth;
+  SyntheticCaptureOptions Options;
+  SyntheticCapture Views;
+  Mesh Hull;
+};
+
+inline Capture& captureOf(SyntheticShape shape)
+{
+  static Capture sphere(SyntheticShape::Sphere), torus(SyntheticShape::Torus);
+  return shape == SyntheticShape::Sphere ? sphere : torus;
+}
+
+/** The capture as it is now, marching cubes of it and the field's correction. */
+struct Corrected
+{
+  explicit Corrected(const Capture& capture, const FieldCorrectionOptions& options = {}, int depth = Depth)
+    : views(capture.prepared())
+  {
+    Execution execution;
+    const Octree octree = carveViews(this->views, unitCube(1.05), depth);
+    this->lattice = octree.lattice;
+    this->exact = votingMarchingCubes(octree, this->views, {}, execution).mesh;
+    this->correction = this->correct(options, execution);
+  }
+
+  FieldCorrection correct(const FieldCorrectionOptions& options, Execution& execution) const
+  {
+    return correctField(this->exact, this->lattice, this->views, options, execution);
+  }
+
+  PreparedViews views;
+  Lattice lattice;
+  Mesh exact;
+  FieldCorrection correction;
+};
+
+} // namespace silhouette::test
