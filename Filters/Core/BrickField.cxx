@@ -190,6 +190,25 @@ BrickField::BrickField(const Lattice& lattice, const std::vector<std::uint64_t>&
   this->Values.assign(this->Bricks.size() * BrickPoints, 0.0f);
 }
 
+void BrickField::keepBricks(const std::vector<std::uint8_t>& keep)
+{
+  std::size_t kept = 0;
+  for (std::size_t brick = 0; brick < this->Bricks.size(); ++brick)
+  {
+    if (keep[brick] != 0)
+    {
+      if (kept != brick)
+      {
+        this->Bricks[kept] = this->Bricks[brick];
+        std::copy_n(&this->Values[brick * BrickPoints], BrickPoints, &this->Values[kept * BrickPoints]);
+      }
+      ++kept;
+    }
+  }
+  this->Bricks.resize(kept);
+  this->Values.resize(kept * BrickPoints);
+}
+
 std::ptrdiff_t BrickField::findBrick(std::uint64_t brick) const
 {
   const auto at = std::lower_bound(this->Bricks.begin(), this->Bricks.end(), brick);

@@ -34,6 +34,8 @@ public:
   std::size_t size() const { return this->Values.size(); }
   /** Morton code of the n-th point. It may lie beyond the lattice, by less than a brick. */
   std::uint64_t code(std::size_t n) const { return this->Bricks[n / BrickPoints] * BrickPoints + n % BrickPoints; }
+  /** Give up the bricks, in their order, that are marked 0. */
+  void keepBricks(const std::vector<std::uint8_t>& keep);
   /** Index of a brick, or -1. */
   std::ptrdiff_t findBrick(std::uint64_t brick) const;
   /** Index of a point, or -1. */

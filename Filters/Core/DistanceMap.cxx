@@ -15,7 +15,6 @@ namespace
 {
 
 constexpr int TileSize = 16;
-static_assert(TileSize == 16, "classifyTiles() reads a tile's row as two words");
 constexpr int BlockSize = 8;
 constexpr int LongestShort = 127; ///< px: two squares of distances up to here add up within sixteen bits
 
@@ -47,21 +46,74 @@ std::array<int, 4> objectBox(const std::uint8_t* object, int width, int height)
   return box;
 }
 
+/** How the samples of a piece of a row, TileSize of them, find the columns around them in a buffer of squares. */
+class PieceColumns
+{
+public:
+  PieceColumns(int spacing, int most)
+    : Spacing(spacing)
+    , Most(most)
+    , Before((most + spacing - 1) / spacing)
+    , Lane(TileSize + 2 * this->Before + 1)
+  {
+    for (int d = -most; d <= most; ++d)
+    {
+      const int steps = (d + this->Before * spacing) / spacing - this->Before, rest = d - steps * spacing;
+      this->Offsets.push_back(spacing == 1 ? d + most : rest * this->Lane + steps + this->Before);
+    }
+  }
+
+  int most() const { return this->Most; }
+  /** Of columns in a piece and around it. */
+  int length() const { return TileSize * this->Spacing + 2 * this->Most; }
+  /** Where the columns begin that are `d` off each sample, in the order of the samples. */
+  int offset(int d) const { return this->Offsets[std::size_t(d + this->Most)]; }
+
+  /** Columns in the samples' order: those that are equally far off a sample lie side by side. */
+  template <typename Square>
+  const Square* arrange(const Square* columns, std::vector<Square>& arranged) const
+  {
+    if (this->Spacing == 1)
+    {
+      return columns;
+    }
+    arranged.resize(std::size_t(this->Spacing * this->Lane));
+    for (int rest = 0; rest < this->Spacing; ++rest)
+    {
+      Square* const lane = &arranged[std::size_t(rest * this->Lane)];
+      const int first = this->Most + rest - this->Before * this->Spacing; // of the lane's first column; may be missing
+      for (int n = first < 0 ? 1 : 0; n < this->Lane && first + n * this->Spacing < this->length(); ++n)
+      {
+        lane[n] = columns[first + n * this->Spacing];
+      }
+    }
+    return arranged.data();
+  }
+
+private:
+  int Spacing;
+  int Most;
+  int Before; ///< samples before the first and after the last that hold `most` columns
+  int Lane;   ///< length of a lane: columns of one remainder by the spacing
+  std::vector<int> Offsets;
+};
+
 /**
- * For a row's TileSize pixels, from the squares of the distances within the columns (0 at pixels of the other kind): the least
- * d * d + column[d]^2 over |d| <= `most`. Stops where no larger d can matter.
+ * For a piece's samples, from the squares of the distances within the columns (0 at pixels of the other kind): the least
+ * d * d + column[d]^2 over |d| <= most. Stops where no larger d can matter.
  */
 template <typename Square>
-inline void leastSquares(const Square* squares, int most, Square* best)
+inline void leastSquares(const Square* squares, const PieceColumns& columns, Square* best)
 {
-  std::copy(squares, squares + TileSize, best);
-  for (int d = 1; d <= most; ++d)
+  std::copy(squares + columns.offset(0), squares + columns.offset(0) + TileSize, best);
+  for (int d = 1; d <= columns.most(); ++d)
   {
     const Square square = Square(d * d);
+    const Square *before = squares + columns.offset(-d), *after = squares + columns.offset(d);
     Square greatest = 0;
     for (int c = 0; c < TileSize; ++c)
     {
-      const Square nearer = std::min(squares[c - d], squares[c + d]);
+      const Square nearer = std::min(before[c], after[c]);
       best[c] = std::min(best[c], Square(nearer + square));
       greatest = std::max(greatest, best[c]);
     }
@@ -72,70 +124,95 @@ inline void leastSquares(const Square* squares, int most, Square* best)
   }
 }
 
-/** Some pixels of a row, with those around them that count. */
+/** The pixels of a row that count for a piece. */
 struct RowPiece
 {
   const std::uint8_t* pixels;   ///< the first one that there is
   const std::int16_t* inColumn; ///< its distance within the column
   int before;                   ///< so many are missing before it
   int count;                    ///< so many there are
-  int most;                     ///< so many count before and after the piece
 };
 
-/** Distances of a piece's TileSize pixels if they are of one kind; `squares` is where there are no pixels their limit. */
+/** Squares of a piece's distances, a buffer each: as the columns lie, and as the samples find them. */
 template <typename Square>
-inline void measureKind(const RowPiece& row, std::uint8_t kind, Square* squares, float* distances)
+struct SquareBuffers
 {
-  Square* const own = squares + row.before;
+  std::vector<Square> columns; ///< before the first pixel their limit
+  std::vector<Square> arranged;
+};
+
+/** Distances of a piece's samples if they are of one kind. */
+template <typename Square>
+inline void measureKind(
+  const RowPiece& row, std::uint8_t kind, const PieceColumns& columns, SquareBuffers<Square>& squares, float* distances)
+{
+  Square* const own = squares.columns.data() + row.before;
   for (int c = 0; c < row.count; ++c)
   {
     const Square square = Square(row.inColumn[c] * row.inColumn[c]);
     own[c] = row.pixels[c] == kind ? square : Square(0);
   }
+  // Beyond the image the last column goes on; that is no nearer to any pixel of it.
+  std::fill(own + row.count, squares.columns.data() + columns.length(), own[row.count - 1]);
   Square best[TileSize];
-  leastSquares(squares + row.most, row.most, best);
+  leastSquares(columns.arrange(squares.columns.data(), squares.arranged), columns, best);
   for (int c = 0; c < TileSize; ++c)
   {
     distances[c] = std::sqrt(float(best[c])) - 0.5f;
   }
 }
 
-SILHOUETTE_VECTORISED void measureShort(const RowPiece& row, std::uint8_t kind, std::int16_t* squares, float* distances)
+SILHOUETTE_VECTORISED void measureShort(const RowPiece& row, std::uint8_t kind, const PieceColumns& columns,
+  SquareBuffers<std::int16_t>& squares, float* distances)
 {
-  measureKind(row, kind, squares, distances);
+  measureKind(row, kind, columns, squares, distances);
 }
 
-SILHOUETTE_VECTORISED void measureLong(const RowPiece& row, std::uint8_t kind, std::int32_t* squares, float* distances)
+SILHOUETTE_VECTORISED void measureLong(const RowPiece& row, std::uint8_t kind, const PieceColumns& columns,
+  SquareBuffers<std::int32_t>& squares, float* distances)
 {
-  measureKind(row, kind, squares, distances);
+  measureKind(row, kind, columns, squares, distances);
 }
 
-/** Each pixel's distance in its column to the other kind, at most one more a row. */
+/** From each pixel's distance in its column to the other kind, on one side, that of the next row's. */
 SILHOUETTE_VECTORISED void stepColumns(
-  const std::uint8_t* own, const std::uint8_t* other, const std::int16_t* last, std::int16_t* out, int columns)
+  const std::uint8_t* own, const std::uint8_t* before, std::int16_t limit, std::int16_t* distance, int columns)
 {
   for (int c = 0; c < columns; ++c)
   {
-    const std::int16_t next = std::int16_t(own[c] != other[c] ? 1 : last[c] + 1);
-    out[c] = next < out[c] ? next : out[c];
+    const std::int16_t further = std::int16_t(distance[c] + 1);
+    const std::int16_t next = own[c] != before[c] ? std::int16_t(1) : further;
+    distance[c] = next < limit ? next : limit;
+  }
+}
+
+SILHOUETTE_VECTORISED void takeLess(const std::int16_t* distance, std::int16_t* out, int columns)
+{
+  for (int c = 0; c < columns; ++c)
+  {
+    out[c] = distance[c] < out[c] ? distance[c] : out[c];
   }
 }
 
 /** Where the object and its surroundings are; nothing is kept where there is no object. */
-DistanceFrame frameOf(const std::uint8_t* object, int width, int height, double reach)
+DistanceFrame frameOf(const std::uint8_t* object, int width, int height, double reach, int spacing)
 {
   DistanceFrame frame;
   frame.width = width;
   frame.height = height;
   frame.reach = float(std::clamp(reach, 1.0, 30000.0));
+  frame.spacing = std::clamp(spacing, 1, int(frame.reach));
+  frame.samplesPerPixel = 1.0 / frame.spacing;
   const auto box = objectBox(object, width, height);
   if (box[1] >= box[0])
   {
     const int margin = int(std::ceil(frame.reach)) + 1;
     frame.left = std::max(box[0] - margin, 0);
     frame.top = std::max(box[2] - margin, 0);
-    frame.columns = std::min(box[1] + margin, width - 1) - frame.left + 1;
-    frame.rows = std::min(box[3] + margin, height - 1) - frame.top + 1;
+    frame.lastColumn = std::min(box[1] + margin, width - 1) - frame.left;
+    frame.lastRow = std::min(box[3] + margin, height - 1) - frame.top;
+    frame.columns = (frame.lastColumn + frame.spacing - 1) / frame.spacing + 1;
+    frame.rows = (frame.lastRow + frame.spacing - 1) / frame.spacing + 1;
   }
   return frame;
 }
@@ -149,189 +226,173 @@ public:
     : Object(object)
     , Map(frame)
     , Limit(int(std::ceil(frame.reach)) + 1)
-    , TileColumns((frame.columns + TileSize - 1) / TileSize)
-    , TileRows((frame.rows + TileSize - 1) / TileSize)
+    , Width(frame.lastColumn + 1)
+    , Columns(frame.spacing, this->Limit - 1)
   {
     this->sweepColumns();
   }
 
-  int pieces() const { return this->TileColumns; }
+  int pieces() const { return (this->Map.columns + TileSize - 1) / TileSize; }
 
-  /** TileSize pixels of a row, or as many as there are. */
+  /** A piece of a row of samples; those that are not there, too, have a place in `out`. */
   void measure(int row, int piece, float* out)
   {
-    const int first = piece * TileSize, last = std::min(first + TileSize, this->Map.columns);
-    if (first + TileSize <= this->Map.columns)
+    const int first = piece * TileSize * this->Map.spacing;
+    const std::uint8_t* pixels = this->row(row * this->Map.spacing);
+    bool any[2] = { false, false };
+    std::uint8_t kinds[TileSize];
+    for (int c = 0; c < TileSize; ++c)
     {
-      this->fillRow(row, first, out);
-      return;
-    }
-    for (int c = first; c < last; ++c)
-    {
-      out[c - first] = this->distanceAt(c, row);
-    }
-  }
-
-  /** All pixels. */
-  void run(std::vector<float>& value)
-  {
-    value.resize(std::size_t(this->Map.columns) * this->Map.rows);
-    this->classifyTiles();
-    for (int tile = 0; tile < this->TileColumns * this->TileRows; ++tile)
-    {
-      this->fill(tile % this->TileColumns, tile / this->TileColumns, value);
-    }
-  }
-
-private:
-  const std::uint8_t* row(int r) const
-  {
-    return this->Object + std::size_t(r + this->Map.top) * this->Map.width + this->Map.left;
-  }
-
-  /** 0 or 1 where all of a tile is, else 2. */
-  void classifyTiles()
-  {
-    this->Tiles.assign(std::size_t(this->TileColumns) * this->TileRows, 3);
-    for (int r = 0; r < this->Map.rows; ++r)
-    {
-      const std::uint8_t* pixels = this->row(r);
-      std::uint8_t* tiles = &this->Tiles[std::size_t(r / TileSize) * this->TileColumns];
-      int c = 0;
-      for (; c + TileSize <= this->Map.columns; c += TileSize)
-      {
-        constexpr std::uint64_t ones = 0x0101010101010101ULL;
-        const std::uint64_t a = wordAt(pixels + c), b = wordAt(pixels + c + 8);
-        const std::uint8_t own = a != b ? 2 : a == 0 ? 0 : a == ones ? 1 : 2;
-        std::uint8_t& tile = tiles[c / TileSize];
-        tile = tile == 3 ? own : (tile == own ? tile : std::uint8_t(2));
-      }
-      for (; c < this->Map.columns; ++c)
-      {
-        std::uint8_t& tile = tiles[c / TileSize];
-        tile = tile == 3 ? pixels[c] : (tile == pixels[c] ? tile : std::uint8_t(2));
-      }
-    }
-  }
-
-  /** Distance to the nearest pixel of the other kind in the same column, at most Limit. */
-  void sweepColumns()
-  {
-    const int columns = this->Map.columns;
-    this->InColumn.assign(std::size_t(columns) * this->Map.rows, std::int16_t(this->Limit));
-    for (int pass = 0; pass < 2; ++pass)
-    {
-      for (int n = 1; n < this->Map.rows; ++n)
-      {
-        const int r = pass == 0 ? n : this->Map.rows - 1 - n;
-        const int before = pass == 0 ? r - 1 : r + 1;
-        const std::uint8_t *own = this->row(r), *other = this->row(before);
-        stepColumns(own, other, &this->InColumn[std::size_t(before) * columns], &this->InColumn[std::size_t(r) * columns], columns);
-      }
-    }
-  }
-
-  /** Is everything within reach of a tile of one kind? */
-  bool alone(int column, int row) const
-  {
-    const int ring = (this->Limit + TileSize - 1) / TileSize;
-    const std::uint8_t kind = this->Tiles[std::size_t(row) * this->TileColumns + column];
-    for (int r = std::max(row - ring, 0); r <= std::min(row + ring, this->TileRows - 1); ++r)
-    {
-      for (int c = std::max(column - ring, 0); c <= std::min(column + ring, this->TileColumns - 1); ++c)
-      {
-        if (this->Tiles[std::size_t(r) * this->TileColumns + c] != kind || kind == 2)
-        {
-          return false;
-        }
-      }
-    }
-    return true;
-  }
-
-  float distanceAt(int column, int row) const
-  {
-    const std::uint8_t* pixels = this->row(row);
-    const std::int16_t* vertical = &this->InColumn[std::size_t(row) * this->Map.columns];
-    const int kind = pixels[column];
-    long best = long(vertical[column]) * vertical[column];
-    for (int d = 1; d < this->Limit && long(d) * d < best; ++d)
-    {
-      for (const int other : { column - d, column + d })
-      {
-        if (other >= 0 && other < this->Map.columns)
-        {
-          const long v = pixels[other] != kind ? 0 : vertical[other];
-          best = std::min(best, long(d) * d + v * v);
-        }
-      }
-    }
-    const float distance = std::min(std::sqrt(float(best)) - 0.5f, this->Map.reach);
-    return kind != 0 ? distance : -distance;
-  }
-
-  /** distanceAt() for TileSize pixels of a row, once for each kind that is among them. */
-  void fillRow(int row, int firstColumn, float* out)
-  {
-    const int most = this->Limit - 1, length = TileSize + 2 * most;
-    const int from = std::max(firstColumn - most, 0), to = std::min(firstColumn + TileSize + most, this->Map.columns);
-    const std::uint8_t* pixels = this->row(row);
-    const std::int16_t* inColumn = &this->InColumn[std::size_t(row) * this->Map.columns];
-    const RowPiece piece{ pixels + from, inColumn + from, from - (firstColumn - most), to - from, most };
-    const bool isShort = this->Limit <= LongestShort;
-    isShort ? this->Short.resize(std::size_t(length)) : this->Long.resize(std::size_t(length));
-    if (piece.count < length)
-    {
-      std::fill(this->Short.begin(), this->Short.end(), std::int16_t(this->Limit * this->Limit));
-      std::fill(this->Long.begin(), this->Long.end(), this->Limit * this->Limit);
+      kinds[c] = pixels[std::min(first + c * this->Map.spacing, this->Map.lastColumn)];
+      any[kinds[c]] = true;
     }
     float distances[TileSize];
     for (const std::uint8_t kind : { 0, 1 })
     {
-      if (std::memchr(pixels + firstColumn, kind, TileSize) == nullptr)
+      if (!any[kind])
       {
         continue;
       }
-      isShort ? measureShort(piece, kind, this->Short.data(), distances)
-              : measureLong(piece, kind, this->Long.data(), distances);
+      this->measureKindOf(row, first, kind, distances);
       for (int c = 0; c < TileSize; ++c)
       {
         const float distance = std::min(distances[c], this->Map.reach);
-        out[c] = pixels[firstColumn + c] == kind ? (kind != 0 ? distance : -distance) : out[c];
+        out[c] = kinds[c] == kind ? (kind != 0 ? distance : -distance) : out[c];
       }
     }
   }
 
-  void fill(int tileColumn, int tileRow, std::vector<float>& value)
+  /** All samples. */
+  void run(std::vector<float>& value)
   {
-    const int lastRow = std::min((tileRow + 1) * TileSize, this->Map.rows);
-    const int firstColumn = tileColumn * TileSize;
-    const int lastColumn = std::min(firstColumn + TileSize, this->Map.columns);
-    const bool far = this->alone(tileColumn, tileRow);
-    const float most = this->row(tileRow * TileSize)[firstColumn] != 0 ? this->Map.reach : -this->Map.reach;
-    for (int r = tileRow * TileSize; r < lastRow; ++r)
+    value.reserve(std::size_t(this->Map.columns) * this->Map.rows); // written once
+    for (int row = 0; row < this->Map.rows; ++row)
     {
-      float* out = &value[std::size_t(r) * this->Map.columns];
-      if (far)
+      this->classifyRow(row);
+      for (int piece = 0; piece < this->pieces(); ++piece)
       {
-        std::fill(out + firstColumn, out + lastColumn, most);
-      }
-      else
-      {
-        this->measure(r, tileColumn, out + firstColumn);
+        const std::size_t count = std::size_t(std::min(TileSize, this->Map.columns - piece * TileSize));
+        const std::uint8_t kind = this->kindAround(piece);
+        if (kind == Mixed)
+        {
+          float distances[TileSize];
+          this->measure(row, piece, distances);
+          value.insert(value.end(), distances, distances + count);
+        }
+        else
+        {
+          value.insert(value.end(), count, kind != 0 ? this->Map.reach : -this->Map.reach);
+        }
       }
     }
+  }
+
+private:
+  static constexpr std::uint8_t Mixed = 2;
+
+  /** The pixels of a row; below the last one it goes on. */
+  const std::uint8_t* row(int r) const
+  {
+    return this->Object + std::size_t(std::min(r, this->Map.lastRow) + this->Map.top) * this->Map.width + this->Map.left;
+  }
+
+  std::int16_t* inColumn(int row) { return &this->InColumn[std::size_t(row) * std::size_t(this->Width)]; }
+
+  /** Distance to the nearest pixel of the other kind in the same column, at most Limit, in the rows of samples. */
+  void sweepColumns()
+  {
+    const int spacing = this->Map.spacing, last = (this->Map.rows - 1) * spacing;
+    const auto limit = std::int16_t(this->Limit);
+    this->InColumn.resize(std::size_t(this->Width) * std::size_t(this->Map.rows));
+    std::vector<std::int16_t> distance(std::size_t(this->Width), limit);
+    std::copy(distance.begin(), distance.end(), this->inColumn(0));
+    for (int r = 1; r <= last; ++r)
+    {
+      stepColumns(this->row(r), this->row(r - 1), limit, distance.data(), this->Width);
+      if (r % spacing == 0)
+      {
+        std::copy(distance.begin(), distance.end(), this->inColumn(r / spacing));
+      }
+    }
+    std::fill(distance.begin(), distance.end(), limit);
+    for (int r = this->Map.lastRow - 1; r >= 0; --r)
+    {
+      stepColumns(this->row(r), this->row(r + 1), limit, distance.data(), this->Width);
+      if (r % spacing == 0)
+      {
+        takeLess(distance.data(), this->inColumn(r / spacing), this->Width);
+      }
+    }
+  }
+
+  /** For each TileSize pixels of a row of samples: 0 or 1 where all are, and all within reach in their columns, else Mixed. */
+  void classifyRow(int row)
+  {
+    const std::uint8_t* pixels = this->row(row * this->Map.spacing);
+    const std::int16_t* inColumn = this->inColumn(row);
+    this->Tiles.resize(std::size_t((this->Width + TileSize - 1) / TileSize));
+    for (std::size_t tile = 0; tile < this->Tiles.size(); ++tile)
+    {
+      const int first = int(tile) * TileSize, end = std::min(first + TileSize, this->Width);
+      bool alike = true;
+      for (int c = first; c < end; ++c)
+      {
+        alike = alike & (pixels[c] == pixels[first]) & (inColumn[c] == this->Limit);
+      }
+      this->Tiles[tile] = alike ? pixels[first] : Mixed;
+    }
+  }
+
+  /** The kind of everything within reach of a piece of the classified row, or Mixed. */
+  std::uint8_t kindAround(int piece) const
+  {
+    const int span = TileSize * this->Map.spacing, first = piece * span;
+    const int from = std::max(first - this->Limit, 0) / TileSize;
+    const int to = std::min(first + span - 1 + this->Limit, this->Map.lastColumn) / TileSize;
+    for (int tile = from; tile <= to; ++tile)
+    {
+      if (this->Tiles[tile] != this->Tiles[from])
+      {
+        return Mixed;
+      }
+    }
+    return this->Tiles[from];
+  }
+
+  void measureKindOf(int row, int firstColumn, std::uint8_t kind, float* distances)
+  {
+    const int before = firstColumn - this->Columns.most(), length = this->Columns.length();
+    const int from = std::max(before, 0), to = std::min(before + length, this->Width);
+    const RowPiece piece{ this->row(row * this->Map.spacing) + from, this->inColumn(row) + from, from - before, to - from };
+    const std::int32_t most = this->Limit * this->Limit;
+    if (this->Limit <= LongestShort)
+    {
+      makeRoom(this->Short, length, piece.before, std::int16_t(most));
+      measureShort(piece, kind, this->Columns, this->Short, distances);
+    }
+    else
+    {
+      makeRoom(this->Long, length, piece.before, most);
+      measureLong(piece, kind, this->Columns, this->Long, distances);
+    }
+  }
+
+  template <typename Square>
+  static void makeRoom(SquareBuffers<Square>& squares, int length, int missing, Square most)
+  {
+    squares.columns.resize(std::size_t(length));
+    std::fill_n(squares.columns.begin(), missing, most);
   }
 
   const std::uint8_t* Object;
   const DistanceFrame& Map;
   int Limit;
-  int TileColumns;
-  int TileRows;
+  int Width; ///< pixels of a row
+  PieceColumns Columns;
   std::vector<std::uint8_t> Tiles;
-  std::vector<std::int16_t> InColumn;
-  std::vector<std::int16_t> Short; ///< squares, as many as a piece needs
-  std::vector<std::int32_t> Long;  ///< the same for limits that are too long for the others
+  std::vector<std::int16_t> InColumn; ///< a row of pixels for each row of samples
+  SquareBuffers<std::int16_t> Short;
+  SquareBuffers<std::int32_t> Long; ///< for limits that are too long for the others
 };
 
 namespace
@@ -382,20 +443,21 @@ void countBlocks(DistanceMap& map)
 bool DistanceMap::farInside(double firstU, double lastU, double firstV, double lastV) const
 {
   const double u = firstU - this->left, lastInU = lastU - this->left, v = firstV - this->top, lastInV = lastV - this->top;
-  if (this->value.empty() || !(u >= 0.0 && v >= 0.0 && lastInU < this->columns - 1 && lastInV < this->rows - 1))
+  if (this->value.empty() || !(u >= 0.0 && v >= 0.0 && lastInU < this->lastColumn && lastInV < this->lastRow))
   {
     return false;
   }
   const int stride = (this->columns + BlockSize - 1) / BlockSize + 1;
-  const int a = int(u) / BlockSize, b = (int(lastInU) + 1) / BlockSize + 1;
-  const int c = int(v) / BlockSize * stride, d = ((int(lastInV) + 1) / BlockSize + 1) * stride;
+  const int step = this->spacing;
+  const int a = int(u) / step / BlockSize, b = (int(lastInU) / step + 1) / BlockSize + 1;
+  const int c = int(v) / step / BlockSize * stride, d = ((int(lastInV) / step + 1) / BlockSize + 1) * stride;
   return this->blocksNear[d + b] - this->blocksNear[c + b] - this->blocksNear[d + a] + this->blocksNear[c + a] == 0;
 }
 
-DistanceMap distanceMap(const std::uint8_t* object, int width, int height, double reach)
+DistanceMap distanceMap(const std::uint8_t* object, int width, int height, double reach, int spacing)
 {
   DistanceMap map;
-  static_cast<DistanceFrame&>(map) = frameOf(object, width, height, reach);
+  static_cast<DistanceFrame&>(map) = frameOf(object, width, height, reach, spacing);
   if (map.columns > 0)
   {
     DistanceTransform(object, map).run(map.value);
@@ -405,7 +467,7 @@ DistanceMap distanceMap(const std::uint8_t* object, int width, int height, doubl
 }
 
 DistancesOnDemand::DistancesOnDemand(const std::uint8_t* object, int width, int height, double reach)
-  : Frame(frameOf(object, width, height, reach))
+  : Frame(frameOf(object, width, height, reach, 1))
 {
   if (this->Frame.columns > 0)
   {

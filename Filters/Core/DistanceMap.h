@@ -13,34 +13,43 @@
 namespace silhouette
 {
 
-/** Which part of an image distances are kept of: the object's surroundings alone. */
+/**
+ * Which part of an image distances are kept of, the object's surroundings alone, and at which of its pixels: samples
+ * are `spacing` columns and rows apart. The last ones may lie beyond the image by less than that; there the border's
+ * pixels go on.
+ */
 struct DistanceFrame
 {
   int width = 0; ///< of the image
   int height = 0;
   int left = 0; ///< first column that is kept
   int top = 0;
-  int columns = 0;
+  int lastColumn = 0; ///< counted from `left`
+  int lastRow = 0;
+  int spacing = 1; ///< px
+  double samplesPerPixel = 1.0;
+  int columns = 0; ///< of samples
   int rows = 0;
   float reach = 0; ///< px: where distances are cut off
 
   /**
-   * Between the pixels' centres, bilinearly; beyond the image as far less as the image is away. `pixel(row, column)` is the
-   * value of a pixel of the part that is kept; there is one.
+   * Between the samples, bilinearly; beyond the image as far less as the image is away. `sample(row, column)` is the
+   * value of a sample; there is one.
    */
-  template <typename Pixel>
-  float interpolate(double u, double v, const Pixel& pixel) const
+  template <typename Sample>
+  float interpolate(double u, double v, const Sample& sample) const
   {
     // Beyond the part that is kept there is only background.
-    const double x = std::clamp(u - this->left, 0.0, double(this->columns - 1));
-    const double y = std::clamp(v - this->top, 0.0, double(this->rows - 1));
+    const double column = std::clamp(u - this->left, 0.0, double(this->lastColumn));
+    const double row = std::clamp(v - this->top, 0.0, double(this->lastRow));
+    const double x = column * this->samplesPerPixel, y = row * this->samplesPerPixel;
     const int c = std::min(int(x), std::max(this->columns - 2, 0));
     const int r = std::min(int(y), std::max(this->rows - 2, 0));
     const int right = this->columns > 1 ? c + 1 : c, below = this->rows > 1 ? r + 1 : r;
     const float s = float(x - c), t = float(y - r);
-    const float inner = (pixel(r, c) * (1 - s) + pixel(r, right) * s) * (1 - t) +
-      (pixel(below, c) * (1 - s) + pixel(below, right) * s) * t;
-    const double dx = u - this->left - x, dy = v - this->top - y;
+    const float inner = (sample(r, c) * (1 - s) + sample(r, right) * s) * (1 - t) +
+      (sample(below, c) * (1 - s) + sample(below, right) * s) * t;
+    const double dx = u - this->left - column, dy = v - this->top - row;
     return dx == 0.0 && dy == 0.0 ? inner : std::max(-this->reach, inner - float(std::sqrt(dx * dx + dy * dy)));
   }
 };
@@ -48,8 +57,8 @@ struct DistanceFrame
 /** Distances in pixels, positive inside, exact up to `reach` and cut off there. */
 struct DistanceMap : DistanceFrame
 {
-  std::vector<float> value; ///< rows * columns, at the pixels' centres
-  /** For each block of 8 x 8 pixels and those before it in both directions, how many are not wholly at the reach. */
+  std::vector<float> value; ///< rows * columns, at the samples' centres
+  /** For each block of 8 x 8 samples and those before it in both directions, how many are not wholly at the reach. */
   std::vector<std::int32_t> blocksNear;
 
   /** The distance at a place; of an image without object the whole reach outside. */
@@ -61,20 +70,22 @@ struct DistanceMap : DistanceFrame
           u, v, [this](int row, int column) { return this->value[std::size_t(row) * this->columns + column]; });
   }
 
-  /** Is the value, but for rounding, the whole reach everywhere between these places? May say no where it is. Cost: four look-ups. */
+  /** Is the value, but for rounding, the whole reach everywhere between these places, px? May say no where it is. Cost: four look-ups. */
   bool farInside(double firstU, double lastU, double firstV, double lastV) const;
 };
 
 /**
  * The map of an image of 0 and 1. The contour runs between pixels: a pixel's distance is that to the nearest pixel of the other
- * kind, less half a pixel. Cost: one pass over the image, and about `reach` steps for each pixel that near to the contour.
+ * kind, less half a pixel. With a `spacing` of 1, the least, all pixels are sampled; of more, at most the reach, each sample is as
+ * exact, and what lies between them is as straight as bilinear interpolation makes it. Cost: two passes over the image, and about
+ * `reach` steps for each sample that near to the contour.
  */
-DistanceMap distanceMap(const std::uint8_t* object, int width, int height, double reach);
+DistanceMap distanceMap(const std::uint8_t* object, int width, int height, double reach, int spacing = 1);
 
 class DistanceTransform;
 
 /**
- * distanceMap() for whoever asks about few places: what at() says is the same, and only the pixels around the places are
+ * distanceMap() of all pixels for whoever asks about few places: what at() says is the same, and only the pixels around the places are
  * measured. For one thread at a time. The image has to outlive it. Cost: two passes over the columns, and about the distance
  * itself for each sixteen pixels of a row that are asked for.
  */

@@ -2,6 +2,7 @@
 #include "FieldCorrection.h"
 
 #include "Error.h"
+#include "FieldRefinement.h"
 #include "Vectorised.h"
 #include "ViewAlignment.h"
 
@@ -17,6 +18,10 @@ namespace
 
 constexpr std::size_t BlockPoints = FieldViews::BlockPoints;
 constexpr double FinestShift = 0.1; ///< px: the contours of clean silhouettes seem shifted by up to two thirds of this
+constexpr double SamplesPerOctant = 2.0; ///< of the silhouettes' distances: they are straight but for corners
+constexpr int MostHalvings = 3;          ///< between the lattice of the field and that of the octants
+constexpr double FinestSmoothing = 3.0;  ///< octants of the field's lattice
+constexpr int RefinedMargin = 3;         ///< octants that the field is given around the surface
 constexpr double ThoughtOutAt = 128.0; ///< cells a side of the lattice that the largest lengths are stated for
 
 void check(const FieldCorrectionOptions& options)
@@ -101,30 +106,71 @@ SILHOUETTE_VECTORISED void keepLeast(float* distances, float* least, int rank)
   }
 }
 
+/** Lengths that go with the lattice, in its octants. */
+struct Lengths
+{
+  double proportion; ///< of the lattice's cells to those that the largest lengths are stated for
+  double scale;      ///< the same, but 1 at least: no band is narrower than three octants
+  double octants = 1.0; ///< of the surface's for one of the lattice's
+
+  explicit Lengths(const Lattice& lattice)
+    : proportion(lattice.cells() / ThoughtOutAt)
+    , scale(std::max(1.0, this->proportion))
+  {
+  }
+
+  /** On a lattice with fewer generations. */
+  Lengths coarser(int halvings) const
+  {
+    Lengths lengths = *this;
+    lengths.octants = double(1 << halvings);
+    lengths.proportion /= lengths.octants;
+    lengths.scale /= lengths.octants;
+    return lengths;
+  }
+
+  double limit() const { return 3.0 * this->scale; } ///< contours that are further apart are not each other's
+  double reach() const { return 4.0 * this->scale; } ///< distances are cut off there
+};
+
+/** Every third view: they tell how wrong the silhouettes are. */
+std::vector<int> someOf(const FieldViews& views)
+{
+  std::vector<int> some;
+  for (int view = 0; view < views.size(); view += 3)
+  {
+    some.push_back(view);
+  }
+  return some;
+}
+
 class Correction
 {
 public:
-  Correction(const Mesh& surface, FieldViews& views, const FieldCorrectionOptions& options)
+  Correction(const Mesh& surface, FieldViews& views, const Lengths& lengths, const FieldCorrectionOptions& options)
     : Options(options)
     , Views(views)
-    , Proportion(views.lattice().cells() / ThoughtOutAt)
-    , Scale(std::max(1.0, Proportion))
+    , Length(lengths)
     , Surface(surface)
     , All(views.size())
+    , Some(someOf(views))
   {
     std::iota(this->All.begin(), this->All.end(), 0);
   }
 
-  double limit() const { return 3.0 * this->Scale; }
-
-  void run(FieldCorrection& result, Execution& execution)
+  /** `measured`: the residuals of some views against the surface. Lengths are octants of this lattice. */
+  void run(const std::vector<ContourResidual>& measured, FieldCorrection& result, Execution& execution)
   {
-    this->Least = BrickField(this->Views.lattice(), cellsOf(this->Surface, this->Views.lattice()), this->margin());
+    // As wide as smoothing reaches by one standard deviation, for the noise there is.
+    this->Band = std::clamp(
+      this->Options.smoothing * std::max(result.deficit, result.shift), 3.0 / this->Length.octants, 3.0 * this->Length.scale);
+    this->Least = BrickField(
+      this->Views.lattice(), cellsOf(this->Surface, this->Views.lattice()), int(std::ceil(this->Band)));
     this->Views.observe(this->All, execution);
     result.remainingDeficit = result.deficit;
     if (this->Options.alignViews)
     {
-      this->align(execution);
+      this->align(measured, execution);
       double sum = 0.0;
       for (const int view : this->All)
       {
@@ -136,8 +182,8 @@ public:
     this->findLeast(this->modelRank(), execution);
     if (this->Options.alignViews)
     {
-      result.remainingDeficit = std::max(0.0,
-        typicalResidual(contourResiduals(this->Views, this->Least.contourMesh(execution), this->All, this->limit(), execution)));
+      result.remainingDeficit =
+        std::max(0.0, typicalResidual(contourResiduals(this->Views, this->Least.contourMesh(execution), this->All, this->Length.limit(), execution)));
     }
     execution.checkpoint(0.65);
     if (this->Options.moveSurface)
@@ -148,15 +194,33 @@ public:
   }
 
 private:
-  int margin() const { return int(std::ceil(3.0 * this->Scale)); }
+  /** Residuals of all views against the surface, of which some are known. */
+  std::vector<ContourResidual> completed(const std::vector<ContourResidual>& measured, Execution& execution) const
+  {
+    std::vector<ContourResidual> all(this->All.size());
+    std::vector<int> others;
+    std::set_difference(
+      this->All.begin(), this->All.end(), this->Some.begin(), this->Some.end(), std::back_inserter(others));
+    const auto residuals = contourResiduals(this->Views, this->Surface, others, this->Length.limit(), execution);
+    for (std::size_t n = 0; n < measured.size(); ++n)
+    {
+      all[this->Some[n]] = measured[n];
+    }
+    for (std::size_t n = 0; n < others.size(); ++n)
+    {
+      all[others[n]] = residuals[n];
+    }
+    return all;
+  }
 
   /** Shift the views towards the contours of the surface, then of the surface of the shifted views, and so on. */
-  void align(Execution& execution)
+  void align(const std::vector<ContourResidual>& measured, Execution& execution)
   {
-    Mesh model = this->Surface;
     for (int round = 0; round < this->Options.alignments; ++round)
     {
-      auto residuals = contourResiduals(this->Views, model, this->All, this->limit(), execution);
+      auto residuals = round == 0
+        ? this->completed(measured, execution)
+        : contourResiduals(this->Views, this->Least.contourMesh(execution), this->All, this->Length.limit(), execution);
       removeCommonShift(this->Views, this->All, residuals);
       for (const int view : this->All)
       {
@@ -165,7 +229,6 @@ private:
       if (round + 1 < this->Options.alignments)
       {
         this->findLeast(1, execution);
-        model = this->Least.contourMesh(execution);
       }
       execution.checkpoint(0.5 * (round + 1) / this->Options.alignments);
     }
@@ -182,7 +245,7 @@ private:
   int modelRank() const
   {
     const int views = this->Views.size();
-    return std::min(std::max(2, int(std::lround(this->Options.modelDissent * views / this->Scale))), views);
+    return std::min(std::max(2, int(std::lround(this->Options.modelDissent * views / std::max(1.0, this->Length.scale * this->Length.octants)))), views);
   }
 
   /** The least and the `rank`-th least distance over the observed silhouettes. */
@@ -250,7 +313,7 @@ private:
   {
     const double deficit = result.remainingDeficit;
     const double widest = this->Views.lattice().cells(); // whatever is asked for
-    const double sigma = std::min({ this->Options.greatestSmoothing * this->Proportion,
+    const double sigma = std::min({ this->Options.greatestSmoothing * this->Length.proportion,
       std::min(this->Options.smoothing, widest) * deficit, widest });
     BrickField model = this->Least;
     for (std::size_t n = 0; n < model.size(); ++n)
@@ -259,11 +322,11 @@ private:
     }
     smoothGently(model, sigma, deficit * this->Options.gentleness, execution);
     execution.checkpoint(0.75);
-    result.hull = applyHullBase(model, this->Options.hullConvexity, 3.0 * this->Scale, execution);
-    const auto maps = this->Views.distances(this->Views.render(model.contourMesh(execution), this->All, execution), execution);
+    result.hull = applyHullBase(model, this->Options.hullConvexity, this->Band, execution);
+    const auto maps = this->Views.distances(model.contourMesh(execution), execution);
     execution.checkpoint(0.85);
     this->Least.values() = model.values();
-    const float band = 3.0f * float(this->Scale);
+    const float band = float(this->Band);
     execution.forRanges(model.size() / BlockPoints, 8,
       [&](std::size_t first, std::size_t last)
       {
@@ -318,7 +381,7 @@ private:
    */
   void agree(const std::vector<Near>& near, const float* own, const float* seen, float* agreed) const
   {
-    const float far = float(this->Views.reach()), reach = float(this->Options.contourReach * this->Proportion);
+    const float far = float(this->Views.reach()), reach = float(this->Options.contourReach * this->Length.proportion);
     float least[BlockPoints], sum[BlockPoints] = {}, weights[BlockPoints] = {};
     std::fill(least, least + BlockPoints, far);
     for (std::size_t n = 0; n < near.size() * BlockPoints; ++n)
@@ -330,7 +393,7 @@ private:
     const auto hear = [&](std::size_t n, float modelled, float observed)
     {
       const float x = (modelled - least[n]) / reach, residual = observed - modelled;
-      if (x < 3.0f && std::abs(residual) < float(this->limit()))
+      if (x < 3.0f && std::abs(residual) < float(this->Length.limit()))
       {
         const float weight = std::exp(-0.5f * x * x);
         sum[n] += weight * residual;
@@ -355,13 +418,49 @@ private:
 
   const FieldCorrectionOptions& Options;
   FieldViews& Views;
-  double Proportion; ///< of the lattice's cells to those that the largest lengths are stated for
-  double Scale;      ///< the same, but that bands of the field and of views are never narrower than three octants
+  Lengths Length;
   const Mesh& Surface;
   std::vector<int> All;
+  std::vector<int> Some;   ///< every third view
+  double Band = 3.0;       ///< octants: as far from the surface the field is corrected
   BrickField Least;
   std::vector<float> Ranked; ///< what the model is made of, at the same points
 };
+
+/** Generations by which the field's lattice may be coarser than the surface's, for the smoothing that the deficit calls for. */
+int halvingsFor(double deficit, const Lengths& lengths, const FieldCorrectionOptions& options)
+{
+  double sigma = std::min(options.greatestSmoothing * lengths.proportion, options.smoothing * deficit);
+  int halvings = 0;
+  for (; halvings < MostHalvings && sigma >= 2.0 * FinestSmoothing; sigma /= 2.0)
+  {
+    ++halvings;
+  }
+  return halvings;
+}
+
+/** `result` and `residuals` in octants of the lattice. */
+void correctOnCoarserLattice(const Mesh& surface, const Lattice& lattice, const PreparedViews& views, const FieldCorrectionOptions& options,
+  std::vector<ContourResidual> residuals, FieldCorrection& result, Execution& execution)
+{
+  const int halvings = std::min(halvingsFor(result.deficit, Lengths(lattice), options), lattice.depth);
+  const Lengths lengths = Lengths(lattice).coarser(halvings);
+  FieldViews fieldViews(views, { lattice.root, lattice.depth - halvings }, lengths.reach(),
+    halvings > 0 ? SamplesPerOctant : 0.0);
+  FieldCorrection coarse;
+  coarse.deficit = result.deficit / lengths.octants;
+  coarse.shift = result.shift / lengths.octants;
+  for (ContourResidual& residual : residuals)
+  {
+    residual.mean /= lengths.octants;
+  }
+  Correction(surface, fieldViews, lengths, options).run(residuals, coarse, execution);
+  result.remainingDeficit = coarse.remainingDeficit * lengths.octants;
+  result.alignment = coarse.alignment;
+  result.hull = coarse.hull;
+  result.field = halvings == 0 ? std::move(coarse.field)
+                               : refinedField(*coarse.field, halvings, cellsOf(surface, lattice), RefinedMargin, execution);
+}
 
 } // namespace
 
@@ -374,15 +473,10 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
   {
     return result;
   }
-  const double reach = 4.0 * std::max(1.0, lattice.cells() / ThoughtOutAt);
-  FieldViews fieldViews(views, lattice, reach);
-  std::vector<int> some;
-  for (int view = 0; view < views.size(); view += 3)
-  {
-    some.push_back(view);
-  }
-  Correction correction(surface, fieldViews, options);
-  const auto residuals = contourResiduals(fieldViews, surface, some, correction.limit(), execution);
+  const Lengths lengths(lattice);
+  FieldViews fieldViews(views, lattice, lengths.reach());
+  const auto some = someOf(fieldViews);
+  auto residuals = contourResiduals(fieldViews, surface, some, lengths.limit(), execution);
   result.deficit = std::max(0.0, typicalResidual(residuals));
   const TypicalShift shift(residuals, some, fieldViews);
   result.shift = shift.octants;
@@ -393,7 +487,7 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
       shift.pixels > FinestShift))
   {
     Phase correcting(execution, 0.3, 1.0);
-    correction.run(result, correcting);
+    correctOnCoarserLattice(surface, lattice, views, options, std::move(residuals), result, correcting);
   }
   execution.progress(1.0);
   return result;

@@ -32,11 +32,11 @@ struct BlockOffsets
   }
 };
 
-/** Where the points of a block fall in a map that has all four pixels around each of them. */
+/** Where the points of a block fall in a map that has all four samples around each of them. */
 struct BlockPlaces
 {
   double octantsPerPixel[Points];
-  std::int32_t pixel[Points]; ///< the upper left one of the four
+  std::int32_t sample[Points]; ///< the upper left one of the four
   float s[Points], t[Points];
   float value[4][Points];
 };
@@ -54,10 +54,10 @@ SILHOUETTE_VECTORISED void placeBlock(
     const double V = ((c[1] + step[0][1] * i) + step[1][1] * j) + step[2][1] * k;
     const double W = ((c[2] + step[0][2] * i) + step[1][2] * j) + step[2][2] * k;
     const double inverse = 1.0 / W;
-    const double x = U * inverse - frame.left, y = V * inverse - frame.top;
+    const double x = (U * inverse - frame.left) * frame.samplesPerPixel, y = (V * inverse - frame.top) * frame.samplesPerPixel;
     const std::int32_t column = std::int32_t(x), row = std::int32_t(y);
     places.octantsPerPixel[n] = W * depthScale;
-    places.pixel[n] = row * frame.columns + column;
+    places.sample[n] = row * frame.columns + column;
     places.s[n] = float(x - column);
     places.t[n] = float(y - row);
   }
@@ -78,10 +78,11 @@ SILHOUETTE_VECTORISED void interpolateBlock(const BlockPlaces& places, float rea
 
 } // namespace
 
-FieldViews::FieldViews(const PreparedViews& views, const Lattice& lattice, double reach)
+FieldViews::FieldViews(const PreparedViews& views, const Lattice& lattice, double reach, double samples)
   : Views(&views)
   , TheLattice(lattice)
   , Reach(reach)
+  , Samples(samples)
   , Shifts(views.size(), Vector2::Zero())
   , Projections(views.size())
   , OnLattice(views.size())
@@ -118,8 +119,7 @@ void FieldViews::observe(const std::vector<int>& views, Execution& execution)
         DistanceMap& map = this->Observed[views[i]];
         if (map.width == 0)
         {
-          const PreparedView& view = (*this->Views)[views[i]];
-          map = distanceMap(view.silhouette(), view.width, view.height, this->reachInPixels(views[i]));
+          map = this->distances(views[i], (*this->Views)[views[i]].silhouette());
         }
       }
     });
@@ -200,7 +200,7 @@ void FieldViews::insideBlock(
   int view, const DistanceMap& map, const LatticePoint& lowest, const Region& region, float* inside) const
 {
   const bool within = region.octantsPerPixel > 0.0 && !map.value.empty() && region.firstU >= map.left &&
-    region.firstV >= map.top && region.lastU < map.left + map.columns - 1 && region.lastV < map.top + map.rows - 1;
+    region.firstV >= map.top && region.lastU < map.left + map.lastColumn && region.lastV < map.top + map.lastRow;
   if (!within || map.value.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
   {
     for (int n = 0; n < Points; ++n)
@@ -214,28 +214,13 @@ void FieldViews::insideBlock(
   placeBlock(this->OnLattice[view], lowest, this->DepthScale[view], map, offsets, places);
   for (int n = 0; n < Points; ++n)
   {
-    const float* pixel = &map.value[std::size_t(places.pixel[n])];
-    places.value[0][n] = pixel[0];
-    places.value[1][n] = pixel[1];
-    places.value[2][n] = pixel[map.columns];
-    places.value[3][n] = pixel[map.columns + 1];
+    const float* sample = &map.value[std::size_t(places.sample[n])];
+    places.value[0][n] = sample[0];
+    places.value[1][n] = sample[1];
+    places.value[2][n] = sample[map.columns];
+    places.value[3][n] = sample[map.columns + 1];
   }
   interpolateBlock(places, float(this->Reach), inside);
-}
-
-std::vector<BinaryImage> FieldViews::render(const Mesh& mesh, const std::vector<int>& views, Execution& execution) const
-{
-  std::vector<BinaryImage> images(views.size());
-  const OutlineRenderer renderer(mesh);
-  execution.forRanges(views.size(), 1,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        images[i] = this->render(renderer, views[i]);
-      }
-    });
-  return images;
 }
 
 BinaryImage FieldViews::render(const OutlineRenderer& renderer, int view) const
@@ -244,15 +229,23 @@ BinaryImage FieldViews::render(const OutlineRenderer& renderer, int view) const
   return renderer.render(this->Projections[view], seen.width, seen.height);
 }
 
-std::vector<DistanceMap> FieldViews::distances(const std::vector<BinaryImage>& images, Execution& execution) const
+DistanceMap FieldViews::distances(int view, const std::uint8_t* object) const
 {
-  std::vector<DistanceMap> maps(images.size());
-  execution.forRanges(images.size(), 1,
+  const PreparedView& seen = (*this->Views)[view];
+  const double spacing = this->Samples > 0.0 ? std::min(this->CentreScale[view] / this->Samples, double(seen.width)) : 1.0;
+  return distanceMap(object, seen.width, seen.height, this->reachInPixels(view), int(spacing));
+}
+
+std::vector<DistanceMap> FieldViews::distances(const Mesh& mesh, Execution& execution) const
+{
+  const OutlineRenderer renderer(mesh);
+  std::vector<DistanceMap> maps(std::size_t(this->size()));
+  execution.forRanges(maps.size(), 1,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t i = first; i < last; ++i)
       {
-        maps[i] = distanceMap(images[i].pixels.data(), images[i].width, images[i].height, this->Observed[i].reach);
+        maps[i] = this->distances(int(i), this->render(renderer, int(i)).pixels.data());
       }
     });
   return maps;

@@ -18,8 +18,11 @@ class OutlineRenderer;
 class FieldViews
 {
 public:
-  /** Distances will be exact up to `reach` octants and cut off there. `views` is not copied and has to outlive this. */
-  FieldViews(const PreparedViews& views, const Lattice& lattice, double reach);
+  /**
+   * Distances will be exact up to `reach` octants and cut off there. `samples`, 0 or more: so many an octant, at least, are
+   * taken of them; 0 takes all pixels'. `views` is not copied and has to outlive this.
+   */
+  FieldViews(const PreparedViews& views, const Lattice& lattice, double reach, double samples = 0.0);
 
   /** Make the observed silhouettes' distances of these views, where they are not made yet. Cost: distanceMap() of each. */
   void observe(const std::vector<int>& views, Execution& execution);
@@ -30,15 +33,13 @@ public:
   /** The observed silhouette's distances; observe() has made them. */
   const DistanceMap& observed(int view) const { return this->Observed[view]; }
   bool isObserved(int view) const { return this->Observed[view].width > 0; }
-  /** The same distances for whoever asks about few places; of any view. */
+  /** The same distances, of all pixels, for whoever asks about few places; of any view. */
   DistancesOnDemand observedOnDemand(int view) const;
 
-  /** The silhouettes of a mesh, as the views (shifted) would see it: one image for each view asked for. */
-  std::vector<BinaryImage> render(const Mesh& mesh, const std::vector<int>& views, Execution& execution) const;
   /** The silhouette of a mesh as one view (shifted) would see it. */
   BinaryImage render(const OutlineRenderer& renderer, int view) const;
-  /** The distances of images of all views, in their order. */
-  std::vector<DistanceMap> distances(const std::vector<BinaryImage>& images, Execution& execution) const;
+  /** The distances in the silhouettes of a mesh as all views (shifted) would see it. Cost: render() and distanceMap() of each. */
+  std::vector<DistanceMap> distances(const Mesh& mesh, Execution& execution) const;
 
   /** px: what is added to every projected point of a view. */
   const Vector2& shift(int view) const { return this->Shifts[view]; }
@@ -91,10 +92,12 @@ private:
   void project(int view);
   /** px: observed distances are exact up to here. */
   double reachInPixels(int view) const;
+  DistanceMap distances(int view, const std::uint8_t* object) const;
 
   const PreparedViews* Views;
   Lattice TheLattice;
   double Reach;
+  double Samples; ///< of distances for an octant, or 0
   std::vector<Vector2> Shifts;
   std::vector<Projection> Projections; ///< shifted
   std::vector<LatticeProjection> OnLattice; ///< shifted

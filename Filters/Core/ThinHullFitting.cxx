@@ -2,13 +2,14 @@
 #include "ThinHullFitting.h"
 
 #include "BoxTree.h"
+#include "CoverageNear.h"
 #include "SelfIntersections.h"
-#include "SurvivorCoverage.h"
 #include "UnionFind.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace silhouette
 {
@@ -135,6 +136,10 @@ public:
 
   std::uint64_t run()
   {
+    if (this->Points.empty())
+    {
+      return 0;
+    }
     this->findNeighbourhood();
     for (const std::size_t m : this->Points)
     {
@@ -243,7 +248,7 @@ private:
   {
     const auto& triangles = this->TheMesh.triangles;
     std::vector<Box> boxes(triangles.size());
-    std::vector<Box> moving;
+    std::vector<Box>& moving = this->Swept;
     for (std::size_t t = 0; t < triangles.size(); ++t)
     {
       bool moves = false;
@@ -375,17 +380,12 @@ private:
   /** Withdraw around the survivors that the surface has lost; false where there are none. */
   bool withdrawLost()
   {
-    const Octree& octree = this->Thin.octree;
-    Phase phase(this->Run, 0.9, 0.9);
-    const auto coverage = survivorCoverage(octree, this->TheMesh, phase);
-    std::vector<std::uint64_t> lost;
-    for (std::size_t o = 0; o < coverage.size(); ++o)
+    if (!this->Survivors)
     {
-      if (coverage[o] == Coverage::Lost && octree.last().state[o] != OctantState::Background)
-      {
-        lost.push_back(octree.last().code[o]);
-      }
+      this->Survivors.emplace(this->Thin.octree, this->TheMesh, this->Swept);
     }
+    Phase phase(this->Run, 0.9, 0.9);
+    const auto lost = this->Survivors->lost(this->TheMesh, phase);
     if (lost.empty())
     {
       return false;
@@ -437,6 +437,8 @@ private:
   std::vector<double> Scale;
   std::vector<int> Withdrawn;
   std::vector<std::int32_t> Near; ///< triangles
+  std::vector<Box> Swept;         ///< by each triangle that moves
+  std::optional<CoverageNear> Survivors;
 };
 
 } // namespace

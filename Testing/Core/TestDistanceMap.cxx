@@ -200,6 +200,65 @@ TEST(DistanceMap, BetweenPixelsItIsBilinearAndBeyondTheImageItFalls)
   }
 }
 
+/** Samples beyond the image are those of its border's pixels, as far on: the places between them still have the right value. */
+TEST(DistanceMap, SamplesAreAsExactAndBetweenThemItIsBilinear)
+{
+  Random random(6);
+  const int sizes[][2] = { { 1, 1 }, { 1, 40 }, { 64, 48 }, { 131, 90 } };
+  for (const auto& size : sizes)
+  {
+    const BinaryImage image = randomMask(size[0], size[1], random);
+    for (const double reach : { 8.0, 25.0, 300.0 })
+    {
+      const DistanceMap every = mapOf(image, reach);
+      for (const int spacing : { 2, 3, 7, 50 })
+      {
+        const DistanceMap some = distanceMap(image.pixels.data(), image.width, image.height, reach, spacing);
+        ASSERT_EQ(some.spacing, std::min(spacing, int(reach)));
+        int wrong = 0, sampled = 0;
+        for (int row = 0; row <= some.lastRow; row += some.spacing)
+        {
+          for (int column = 0; column <= some.lastColumn; column += some.spacing, ++sampled)
+          {
+            const double u = some.left + column, v = some.top + row;
+            wrong += std::abs(some.at(u, v) - every.at(u, v)) > 1e-4f;
+            const double halfway = std::min(u + 0.5 * some.spacing, double(some.left + some.lastColumn));
+            const double next = u + some.spacing;
+            if (next <= some.left + some.lastColumn)
+            {
+              wrong += std::abs(some.at(halfway, v) - 0.5f * (every.at(u, v) + every.at(next, v))) > 1e-4f;
+            }
+          }
+        }
+        EXPECT_EQ(wrong, 0) << size[0] << " x " << size[1] << ", reach " << reach << ", spacing " << spacing;
+        EXPECT_GE(sampled, (some.columns - 1) * (some.rows - 1));
+      }
+    }
+  }
+}
+
+/** An object that the image cuts: its border's distance goes on beyond the last pixel. */
+TEST(DistanceMap, TheLastSamplesGoOnBeyondTheImage)
+{
+  BinaryImage image = blank(30, 20, 0);
+  for (int row = 5; row < 20; ++row)
+  {
+    std::fill_n(&image.at(9, row), 21, std::uint8_t(1));
+  }
+  const DistanceMap every = mapOf(image, 40.0), some = distanceMap(image.pixels.data(), 30, 20, 40.0, 4);
+  EXPECT_EQ(some.columns, 9); // up to column 32
+  EXPECT_EQ(some.rows, 6);    // up to row 20
+  for (int row = 10; row < 20; ++row)
+  {
+    for (int column = 9; column < 30; ++column)
+    {
+      EXPECT_NEAR(some.at(column, row), every.at(column, row), 2.1) << column << " " << row;
+    }
+    // Right of the diagonal the rectangle's upper side is the nearest; there it is straight.
+    EXPECT_NEAR(some.at(29, row), row - 5 + 0.5, 1e-4) << row;
+  }
+}
+
 TEST(DistanceMap, OnDemandItIsTheSame)
 {
   Random random(5);

@@ -2,6 +2,7 @@
 #include "FieldViews.h"
 
 #include "CarvingTestCaptures.h"
+#include "OutlineRendering.h"
 
 #include <gtest/gtest.h>
 
@@ -125,24 +126,49 @@ TEST(FieldViews, RenderIsTheSilhouetteOfTheShiftedProjection)
   fieldViews.addShift(2, Vector2(4.6, -2.3));
   fieldViews.addShift(4, Vector2(-1.5, 0.25));
   const Mesh mesh = torusMesh(40, 20, 0.6, 0.2);
-  const std::vector<int> asked{ 4, 0, 2 };
-  const auto images = fieldViews.render(mesh, asked, execution);
-  ASSERT_EQ(images.size(), asked.size());
-  for (std::size_t i = 0; i < asked.size(); ++i)
+  const OutlineRenderer renderer(mesh);
+  const auto maps = fieldViews.distances(mesh, execution);
+  ASSERT_EQ(maps.size(), 5u);
+  for (const int view : { 4, 0, 2 })
   {
     Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
-    shift.col(2).head<2>() = fieldViews.shift(asked[i]);
-    const Projection shifted = shift * views[asked[i]].projection;
-    EXPECT_EQ(images[i].pixels, renderSilhouette(mesh, shifted, Size, Size).pixels) << asked[i];
-    EXPECT_EQ(images[i].pixels == renderSilhouette(mesh, views[asked[i]].projection, Size, Size).pixels, i == 1);
+    shift.col(2).head<2>() = fieldViews.shift(view);
+    const Projection shifted = shift * views[view].projection;
+    const BinaryImage image = fieldViews.render(renderer, view);
+    EXPECT_EQ(image.pixels, renderSilhouette(mesh, shifted, Size, Size).pixels) << view;
+    EXPECT_EQ(image.pixels == renderSilhouette(mesh, views[view].projection, Size, Size).pixels, view == 0);
+    EXPECT_GE(maps[view].reach, 5.0 * fieldViews.pixelsPerOctant(view));
+    EXPECT_EQ(maps[view].value, distanceMap(image.pixels.data(), Size, Size, maps[view].reach).value);
   }
-  const auto maps = fieldViews.distances(images, execution);
-  ASSERT_EQ(maps.size(), images.size());
-  for (std::size_t i = 0; i < maps.size(); ++i)
+}
+
+/** Distances are straight but for corners and middles, so that few samples tell them. */
+TEST(FieldViews, FewSamplesAnOctantSayNearlyTheSame)
+{
+  Execution execution;
+  const PreparedViews views = sphereViews(3);
+  const Lattice lattice{ unitCube(), 4 }; // 20 pixels an octant
+  FieldViews every(views, lattice, 4.0), some(views, lattice, 4.0, 2.0), none(views, lattice, 4.0, 1000.0);
+  for (FieldViews* fieldViews : { &every, &some, &none })
   {
-    EXPECT_GE(maps[i].reach, 5.0 * fieldViews.pixelsPerOctant(asked[i]));
-    EXPECT_EQ(maps[i].value, distanceMap(images[i].pixels.data(), Size, Size, maps[i].reach).value);
+    fieldViews->observe(allOf(*fieldViews), execution);
   }
+  EXPECT_EQ(every.observed(0).spacing, 1);
+  EXPECT_EQ(none.observed(0).spacing, 1);
+  EXPECT_EQ(some.observed(0).spacing, int(some.pixelsPerOctant(0) / 2.0));
+  EXPECT_LT(50 * some.observed(0).value.size(), every.observed(0).value.size());
+  int near = 0;
+  for (int view = 0; view < 3; ++view)
+  {
+    for (const LatticePoint& p : somePoints(lattice, 1000, std::uint64_t(view)))
+    {
+      const auto place = every.place(view, p);
+      const float one = every.inside(every.observed(view), place), two = some.inside(some.observed(view), place);
+      EXPECT_NEAR(one, two, std::abs(one) < 3.0f ? 0.06 : 0.3);
+      near += std::abs(one) < 3.0f;
+    }
+  }
+  EXPECT_GT(near, 500);
 }
 
 TEST(FieldViews, AViewThatAbstainsLeavesTheWholeReach)
@@ -222,8 +248,7 @@ TEST(FieldViews, SameForAnyNumberOfThreads)
   {
     FieldViews fieldViews(views, { unitCube(), 5 }, 5.0);
     fieldViews.observe({ 0, 1, 2, 4, 5, 6 }, execution);
-    const auto images = fieldViews.render(sphereMesh(3, 0.5), { 0, 1, 2 }, execution);
-    auto maps = fieldViews.distances(images, execution);
+    auto maps = fieldViews.distances(sphereMesh(3, 0.5), execution);
     for (const int view : { 0, 1, 2, 4, 5, 6 })
     {
       maps.push_back(fieldViews.observed(view));

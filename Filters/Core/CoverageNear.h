@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Which survivors does a surface lose where some of it moves? SurvivorCoverage.h for the octants that the motion sweeps.
+ */
+#pragma once
+
+#include "BoxTree.h"
+#include "Execution.h"
+#include "Mesh.h"
+#include "Octree.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace silhouette
+{
+
+class CoverageNear
+{
+public:
+  /**
+   * `swept`, world coordinates: what moves stays in these boxes, whose union holds every triangle that moves, before and after. `mesh` is the surface
+   * before. Survivors of the last generation that no box meets are crossed and enclosed as before. `octree` is not copied
+   * and has to outlive this. Cost: the boxes' octants, and a pass over the triangles.
+   */
+  CoverageNear(const Octree& octree, const Mesh& mesh, const std::vector<Box>& swept);
+
+  /** Morton codes, ascending, of the lost survivors that a box meets. `mesh` differs from the one before in points alone. Cost:
+   * survivorCoverage() of those octants, with the triangles in their rows along x. */
+  std::vector<std::uint64_t> lost(const Mesh& mesh, Execution& execution) const;
+
+private:
+  void findSurvivors(const Octree& octree, const std::vector<Box>& swept);
+  void findTriangles(const Mesh& mesh, const std::vector<Box>& swept);
+
+  Octree Part;                         ///< the survivors, in a last generation of their own
+  std::vector<std::int32_t> Triangles; ///< that may lie in the survivors' rows
+};
+
+} // namespace silhouette
