@@ -313,6 +313,37 @@ TEST(FieldCorrection, FewerViewsMayDissentWhereOctantsAreSmaller)
   }
 }
 
+/** Where smoothing is wide the field comes from a coarser lattice: that of depth 7, whose octants are twice as large. */
+TEST(FieldCorrection, StrongNoiseIsCorrectedOnACoarserLattice)
+{
+  Capture& capture = captureOf(SyntheticShape::Torus);
+  capture.draw(1.4, 0, 1);
+  FieldCorrectionOptions second;
+  second.alignViews = false; // for time's sake
+  second.modelDissent = 0.0; // the second-least at both depths
+  const Corrected corrected(capture, second, 7);
+  ASSERT_GT(corrected.correction.deficit, 0.3);
+  Execution execution;
+  const auto finer = correctField(corrected.exact, { corrected.lattice.root, 8 }, corrected.views, second, execution);
+  ASSERT_TRUE(corrected.correction.field && finer.field);
+  EXPECT_NEAR(finer.deficit, 2.0 * corrected.correction.deficit, 0.02);
+  EXPECT_EQ(finer.field->lattice().depth, 8);
+  EXPECT_EQ(finer.hull.convexity > 0.0, corrected.correction.hull.convexity > 0.0);
+  int compared = 0, near = 0;
+  for (std::size_t n = 0; n < corrected.correction.field->size(); ++n)
+  {
+    const float value = corrected.correction.field->values()[n];
+    const std::ptrdiff_t at = finer.field->find(corrected.correction.field->code(n) << 3);
+    if (std::abs(value) < 1.0f && at >= 0)
+    {
+      ++compared;
+      near += std::abs(finer.field->values()[std::size_t(at)] - 2.0f * value) < 0.2f;
+    }
+  }
+  EXPECT_GT(compared, 20000);
+  EXPECT_GT(near, 0.95 * compared); // what is thin, and counts for no deficit, is half as thick
+}
+
 TEST(FieldCorrection, ASurfaceThatViewsMayDissentFromIsNotPulledBack)
 {
   Execution execution;
