@@ -464,4 +464,12 @@ Octree carve(const LatticeViews& views, const CarveOptions& options, Execution& 
   return octree;
 }
 
+OctantState leafState(const LatticeViews& views, int backgroundVotes, const LatticePoint& cell)
+{
+  Part part;
+  part.carvedByView.resize(std::size_t(views.size()));
+  const OctantTester tester(views, backgroundVotes, views.lattice().depth);
+  return tester.root(mortonCode(cell), allViews(views.size()), part);
+}
+
 } // namespace silhouette

@@ -34,4 +34,11 @@ int treeGeneration(int depth);
  */
 Octree carve(const LatticeViews& views, const CarveOptions& options, Execution& execution);
 
+/**
+ * The state that carve() comes to for a leaf cell of the lattice: of its octant of the last generation, or of the
+ * coarser octant that it lies in, which tells the same since a cell's pixels are among those of its ancestors. For
+ * the few cells that an octree of some trees lacks. Cost: a test of the cell in each view.
+ */
+OctantState leafState(const LatticeViews& views, int backgroundVotes, const LatticePoint& cell);
+
 } // namespace silhouette

@@ -6,7 +6,7 @@
 #include "EdgeCrossing.h"
 #include "FirstTouch.h"
 #include "LatticeSurface.h"
-#include "SubPixelCrossing.h"
+#include "SubPixelLabels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,7 +96,6 @@ VotingSurface votingMarchingCubes(
   const Octree& octree, const PreparedViews& views, const VotingOptions& options, Execution& execution)
 {
   const int allowed = allowedBackgroundVotes(octree, views, options);
-  const int required = views.size() - allowed;
   const LatticeViews latticeViews(views, octree.lattice);
   const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
   execution.checkpoint(0.15);
@@ -104,20 +103,26 @@ VotingSurface votingMarchingCubes(
   const CellViews cellViews(octree, shell, latticeViews, execution);
   Phase voting(execution, 0.15, 0.5);
   const std::vector<std::uint16_t> votes = cornerVotes(shell, cellViews, latticeViews, voting);
-  LatticeSurface contoured = contour(shell, labels(octree.lattice, shell, votes, required, execution), execution);
-
-  VotingSurface surface;
-  countLost(contoured, surface);
-  execution.checkpoint(0.6);
-  surface.mesh.triangles = std::move(contoured.triangles);
-  resizeSideBySide(surface.mesh.points, contoured.edges.size(), execution);
-  resizeSideBySide(surface.insideVotes, contoured.edges.size(), execution);
+  const std::vector<std::uint8_t> voted = labels(octree.lattice, shell, votes, views.size() - allowed, execution);
   std::optional<SubPixelCrossing> subPixel;
+  std::vector<std::uint8_t> moved; // the labels, where they are not those of the votes
   if (options.edges == EdgePlacement::SubPixel)
   {
     subPixel.emplace(latticeViews, execution);
-    execution.checkpoint(0.7);
+    execution.checkpoint(0.6);
+    if (options.mode == VotingMode::Consistent)
+    {
+      moved = subPixelLabels(octree, shell, latticeViews, *subPixel, voted, execution);
+    }
   }
+  LatticeSurface contoured = contour(shell, moved.empty() ? voted : moved, execution);
+
+  VotingSurface surface;
+  countLost(contoured, surface);
+  execution.checkpoint(subPixel ? 0.7 : 0.6);
+  surface.mesh.triangles = std::move(contoured.triangles);
+  resizeSideBySide(surface.mesh.points, contoured.edges.size(), execution);
+  resizeSideBySide(surface.insideVotes, contoured.edges.size(), execution);
   Phase placing(execution, subPixel ? 0.7 : 0.6, 1.0);
   forEach(placing, contoured.edges.size(),
     [&](std::size_t e)
@@ -126,9 +131,17 @@ VotingSurface votingMarchingCubes(
       const ViewsToAsk ask = cellViews[edge.cell];
       const LatticePoint inside = fromMorton(shell.corners[edge.inside]);
       const LatticePoint outside = fromMorton(shell.corners[edge.outside]);
-      const double t = subPixel               ? (*subPixel)(ask, inside, outside, allowed)
-        : options.edges == EdgePlacement::Exact ? exactCrossing(latticeViews, ask, inside, outside, allowed)
-                                                : 0.5;
+      double t = 0.5;
+      if (subPixel)
+      {
+        // Where no view may dissent, those that call the outside end background are asked whatever the inside end's.
+        const bool byVotes = voted[edge.outside] == 0 && (voted[edge.inside] == 1 || allowed == 0);
+        t = byVotes ? (*subPixel)(ask, inside, outside, allowed) : (*subPixel)(inside, outside, allowed);
+      }
+      else if (options.edges == EdgePlacement::Exact)
+      {
+        t = exactCrossing(latticeViews, ask, inside, outside, allowed);
+      }
       surface.mesh.points[e] = crossingPosition(
         octree.lattice, shell, edge, std::clamp(t, CrossingMargin, 1.0 - CrossingMargin));
       surface.insideVotes[e] = { votes[edge.inside], votes[edge.outside] };

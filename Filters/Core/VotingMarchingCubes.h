@@ -16,7 +16,11 @@ enum class EdgePlacement : int
 {
   Middle = 0, ///< the middle of the lattice edge: the thesis
   Exact = 1,  ///< the first point along the edge, from its inside end, at which the votes fail; pixels are squares
-  SubPixel = 2 ///< the same by distances between pixels: nearer to smooth contours (SubPixelCrossing.h)
+  /**
+   * The same by distances between pixels (SubPixelCrossing.h), nearer to smooth contours. In consistent mode corners
+   * among intersection octants alone are labelled by distances, too (SubPixelLabels.h).
+   */
+  SubPixel = 2
 };
 
 enum class VotingMode : int
@@ -36,7 +40,7 @@ struct VotingOptions
 struct VotingSurface
 {
   Mesh mesh;
-  std::vector<std::array<std::uint16_t, 2>> insideVotes; ///< for each point: votes at the inside and outside end
+  std::vector<std::array<std::uint16_t, 2>> insideVotes; ///< for each point: pixels' votes at the inside and outside end
   std::uint64_t intersectionOctants = 0; ///< of the last generation
   std::uint64_t lostNoCorner = 0;        ///< of these, the ones without an inside corner
   std::uint64_t lostAllCorners = 0;      ///< of these, the ones with eight inside corners

@@ -30,7 +30,7 @@
  * generation.
  *
  * Pieces: of a piece of the octree it gives the surface of that piece, without ghost cells, since a corner's
- * votes depend on its position alone. The pieces' surfaces add up to the whole, triangle for triangle, and
+ * label depends on its position alone. The pieces' surfaces add up to the whole, triangle for triangle, and
  * point for point after merging coincident points; so do the counts.
  *
  * Limits: thin parts that hold no corner vanish (they are counted in `LostNoCorner`); vtkLocalHullSurfacer
@@ -65,7 +65,7 @@ public:
   {
     MIDDLE = 0, ///< in the middle
     EXACT = 1,  ///< at the first point, from the inside end, where the votes fail; pixels are squares
-    SUB_PIXEL = 2 ///< the same by distances between pixels: nearer to smooth contours
+    SUB_PIXEL = 2 ///< the same by distances between pixels: nearer to smooth contours; labels, too, where they may be
   };
 
   /** Which octree the share goes with. */
@@ -88,7 +88,9 @@ public:
   /**
    * Where vertices lie on their lattice edges: EXACT (default), MIDDLE or SUB_PIXEL. SUB_PIXEL takes each
    * view's contour by its signed distances, bilinear between pixels, where EXACT follows the pixels' squares:
-   * less of the silhouettes is missed, for a distance map of each view.
+   * less of the silhouettes is missed, for a distance map of each view. In the mode CONSISTENT it also labels
+   * by distances those corners all of whose octants are intersection octants of the last generation, so that
+   * the triangles differ from EXACT's here and there; the surface stays closed.
    */
   vtkSetClampMacro(EdgePlacement, int, MIDDLE, SUB_PIXEL);
   vtkGetMacro(EdgePlacement, int);

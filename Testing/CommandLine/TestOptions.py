@@ -65,7 +65,6 @@ class Surfaces(ProgramTest):
         self.assertEqual(exact["triangles"], middle["triangles"])
         self.assertGreater(exact["mean_iou"], middle["mean_iou"])
         sub_pixel = self.reconstruct("--surface", "marching-cubes", "--edges", "sub-pixel")
-        self.assertEqual(exact["triangles"], sub_pixel["triangles"])
         self.assertGreater(sub_pixel["mean_iou"], exact["mean_iou"])
 
 

@@ -106,6 +106,26 @@ TEST(Carving, NoMixedCellLiesOutsideTheShell)
   }
 }
 
+TEST(Carving, TheStateOfALeafIsKnownFromTheViewsAlone)
+{
+  for (int kind = 0; kind <= 5; ++kind)
+  {
+    const int k = kind == 4 ? 6 : kind % 3;
+    Random random(200 + kind);
+    auto views = torusViews(kind == 3 ? 4 : 14);
+    disturb(views, kind, random);
+    views[0].projection = lookAtOrigin({ 0.4, 0.1, 0.2 }, 150.0, ImageSize); // in the cube
+    const PreparedViews prepared = prepareViews(views, OutsidePolicy(kind % 3));
+    const Octree octree = carveViews(prepared, unitCube(), 5, k);
+    const LatticeViews lattice(prepared, octree.lattice);
+    for (std::uint64_t cell = 0; cell < std::uint64_t(1) << 15; ++cell)
+    {
+      ASSERT_EQ(int(leafState(lattice, k, fromMorton(cell))), int(octree.locate(fromMorton(cell)).state))
+        << "noise " << kind << ", cell " << cell;
+    }
+  }
+}
+
 TEST(Carving, TheTheoremHoldsWithCamerasInTheBoxAndEveryPolicy)
 {
   Random random(5);

@@ -43,7 +43,7 @@ Mesh shapeOf(int shape)
 
 struct Scene
 {
-  Scene(int shape, int kind, int k, OutsidePolicy policy = OutsidePolicy::Border)
+  Scene(int shape, int kind, int k, OutsidePolicy policy = OutsidePolicy::Border, EdgePlacement edges = EdgePlacement::Exact)
   {
     Random random(std::uint64_t(1000 + 100 * shape + kind));
     auto captured = viewsOf(shapeOf(shape), swayingRing(11, 110), 110);
@@ -52,6 +52,7 @@ struct Scene
     this->octree = carveViews(this->views, unitCube(), 5, k);
     VotingOptions options;
     options.share = (11.0 - k) / 11.0;
+    options.edges = edges;
     this->surface = votingMarchingCubes(this->octree, this->views, options, this->execution);
   }
   Execution execution;
@@ -94,6 +95,26 @@ TEST(LocalHullSurface, KeepsItsPromiseForEveryShapeNoiseAndVoteWithAndWithoutVie
     }
   }
   EXPECT_GE(runs, 36);
+}
+
+TEST(LocalHullSurface, KeepsItsPromiseForSubPixelSurfaces)
+{
+  Execution execution;
+  for (int shape = 0; shape < 4; ++shape)
+  {
+    for (const int kind : { 0, 2 })
+    {
+      const int k = kind == 0 ? 0 : 3;
+      const Scene run(shape, kind, k, OutsidePolicy::Border, EdgePlacement::SubPixel);
+      for (const bool withViews : { true, false })
+      {
+        const auto result = localHullSurface(
+          run.surface.mesh, run.octree, withViews ? &run.views : nullptr, LocalHullOptions(), execution);
+        expectPromise(result.mesh, run.octree, "shape " + std::to_string(shape) + (withViews ? "" : ", no views"));
+        EXPECT_EQ(result.survivors, survivorsOf(run.octree));
+      }
+    }
+  }
 }
 
 TEST(LocalHullSurface, KeepsItsPromiseForSurfacesFullOfHoles)

@@ -104,6 +104,7 @@ TEST(SubPixelCrossing, IsNearerToASlantedLineThanThePixels)
         const double truth = crossingOf(plane, TheLattice, inside, direction);
         const double t = crossing(all, inside, outside, 0);
         EXPECT_NEAR(t, truth, 0.6 * pixel);
+        EXPECT_NEAR(crossing(inside, outside, 0), truth, 0.6 * pixel);
         error += std::abs(t - truth);
         exactError += std::abs(exactCrossing(views, inside, outside, 0) - truth);
         ++edges;
@@ -135,10 +136,84 @@ TEST(SubPixelCrossing, WithBackgroundVotesTheNextViewCounts)
     forEachCrossedEdge(views, votes,
       [&](const LatticePoint& inside, const LatticePoint& outside, int direction)
       {
-        EXPECT_NEAR(crossing(all, inside, outside, votes),
-          crossingOf(planes[votes], TheLattice, inside, direction), 0.6 * pixel) << votes;
+        const double truth = crossingOf(planes[votes], TheLattice, inside, direction);
+        EXPECT_NEAR(crossing(all, inside, outside, votes), truth, 0.6 * pixel) << votes;
+        EXPECT_NEAR(crossing(inside, outside, votes), truth, 0.6 * pixel) << votes;
         ++edges;
       });
     EXPECT_GT(edges, 15) << votes;
   }
+}
+
+/** By brute force: the distances of all views at any place, without what is asked first. */
+TEST(SubPixelCrossing, APointIsInsideWhereFewViewsAreAtADistanceOfNoneOrLess)
+{
+  Execution execution;
+  Random random(7);
+  auto captured = viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(6, 120), 120);
+  disturb(captured, 3, random);
+  for (const OutsidePolicy policy : { OutsidePolicy::Border, OutsidePolicy::Unknown })
+  {
+    const PreparedViews prepared = prepareViews(captured, policy);
+    const LatticeViews views(prepared, { unitCube(2.0), 6 }); // its corners are in no image
+    const SubPixelCrossing crossing(views, execution);
+    std::vector<DistanceMap> maps;
+    for (const View& view : captured)
+    {
+      maps.push_back(distanceMap(view.silhouette.pixels.data(), 120, 120, 10.0));
+    }
+    int unseen = 0, changed = 0;
+    for (std::uint64_t n = 0; n < std::uint64_t(1) << 18; n += 3)
+    {
+      const LatticePoint p = fromMorton(n);
+      int outside = 0, seen = 0;
+      for (int view = 0; view < views.size(); ++view)
+      {
+        const Vector3 h = captured[std::size_t(view)].projection * views.lattice().position(p).homogeneous();
+        const bool sees = views.vote(view, p) != Vote::Abstain;
+        seen += sees;
+        outside += sees && maps[std::size_t(view)].at(h[0] / h[2], h[1] / h[2]) <= 0.0f;
+      }
+      for (const int k : { 0, 2 })
+      {
+        ASSERT_EQ(crossing.inside(p, k), seen > 0 && outside <= k) << "point " << n;
+      }
+      unseen += seen == 0;
+      changed += (outside == 0) != (views.insideVotes(p) == views.size());
+    }
+    EXPECT_EQ(unseen > 0, policy == OutsidePolicy::Unknown);
+    EXPECT_GT(changed, 20);
+  }
+}
+
+/** A view that calls both ends background counts from the start, whether it is asked or known to. */
+TEST(SubPixelCrossing, IsTheSameWhicheverOctantsViewsAreAsked)
+{
+  Execution execution;
+  const std::vector<HalfPlane> planes{ { 0.2, 2.0 }, { 0.2, 0.0 }, { 0.2, 3.4 } };
+  std::vector<View> captured;
+  for (const auto& plane : planes)
+  {
+    captured.push_back(viewOf(plane, int(captured.size())));
+  }
+  const PreparedViews prepared = prepareViews(captured);
+  const LatticeViews views(prepared, { unitCube(1.5), 6 });
+  const SubPixelCrossing crossing(views, execution);
+  const std::array<std::uint16_t, 2> others{ 0, 2 };
+  ViewsToAsk settled;
+  settled.views = others.data();
+  settled.count = others.size();
+  settled.backgroundVotes = 1;
+  int edges = 0;
+  for (int n = 8 * 8; n < 56 * 55; ++n)
+  {
+    const LatticePoint a{ n % 56, n / 56, 32 }, b{ n % 56 + 1, n / 56, 32 };
+    const auto is = [&](int view, const LatticePoint& p) { return views.vote(view, p) == Vote::Object; };
+    if (views.insideVotes(a) >= 2 && views.insideVotes(b) < 2 && !is(1, a) && !is(1, b))
+    {
+      ASSERT_EQ(crossing(allOf(views), a, b, 1), crossing(settled, a, b, 1));
+      ++edges;
+    }
+  }
+  EXPECT_GT(edges, 20);
 }

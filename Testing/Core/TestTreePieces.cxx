@@ -97,12 +97,14 @@ TEST(TreePieces, AddUpToTheWholeOctreeAndItsSurface)
 {
   Execution execution;
   const PreparedViews views = torusViews();
-  for (const int k : { 0, 2 })
+  for (const auto& [k, edges] : { std::pair(0, EdgePlacement::Exact), std::pair(2, EdgePlacement::Exact),
+         std::pair(0, EdgePlacement::SubPixel), std::pair(2, EdgePlacement::SubPixel) })
   {
     const LatticeViews latticeViews(views, { unitCube(), 6 });
     const Octree whole = carveViews(views, unitCube(), 6, k);
     VotingOptions options;
     options.share = 1.0 - k / 12.0;
+    options.edges = edges;
     const VotingSurface surface = votingMarchingCubes(whole, views, options, execution);
     for (const int count : { 1, 2, 3, 8 })
     {

@@ -98,9 +98,17 @@ int countRuns(vtkAlgorithm* filter, vtkCallbackCommand* command, int& count)
 
 } // namespace
 
-TEST(VtkPieces, OfTheOctreeAndTheVotingSurfaceAddUp)
+class VtkPiecesByEdges : public testing::TestWithParam<int>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Edges, VtkPiecesByEdges,
+                         testing::Values(int(vtkVotingMarchingCubes::EXACT), int(vtkVotingMarchingCubes::SUB_PIXEL)));
+
+TEST_P(VtkPiecesByEdges, OfTheOctreeAndTheVotingSurfaceAddUp)
 {
   Pipeline whole;
+  whole.cubes->SetEdgePlacement(this->GetParam());
   whole.cubes->Update();
   const auto expected = triangles(whole.cubes->GetOutput());
   const auto expectedVotes = votes(whole.cubes->GetOutput());
@@ -108,6 +116,7 @@ TEST(VtkPieces, OfTheOctreeAndTheVotingSurfaceAddUp)
   for (const int count : {1, 2, 3, 8})
   {
     Pipeline parts;
+    parts.cubes->SetEdgePlacement(this->GetParam());
     int runs = 0;
     vtkNew<vtkCallbackCommand> command;
     countRuns(parts.extractor, command, runs);
