@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LatticeLabels.h"
 
+#include "Bits.h"
+#include "BlockBits.h"
 #include "CornerVotes.h"
 #include "MarchingCubesTable.h"
 
@@ -324,11 +326,65 @@ bool LatticeLabels::unlabelled(const LatticePoint& p) const
     return this->TheOctree->touchesInside(p);
   }
   // No intersection octant of the last generation touches it: every octant around it tells.
-  const auto location = this->TheOctree->locate(p);
-  return location.state == OctantState::Inside ||
+  return this->isInside(this->TheOctree->locate(p));
+}
+
+/** By the octree and the cavities that were filled. */
+bool LatticeLabels::isInside(const Octree::Location& octant) const
+{
+  return octant.state == OctantState::Inside ||
     (!this->Filled.empty() &&
-      std::binary_search(
-        this->Filled.begin(), this->Filled.end(), std::make_pair(location.generation, location.index)));
+      std::binary_search(this->Filled.begin(), this->Filled.end(), std::make_pair(octant.generation, octant.index)));
+}
+
+std::uint64_t LatticeLabels::insideOfBlock(std::uint64_t block) const
+{
+  const std::uint64_t within = withinBorder(this->TheOctree->lattice, block);
+  std::uint64_t known = 0, inside = 0;
+  const auto first = std::lower_bound(this->Shell.corners.begin(), this->Shell.corners.end(), 64 * block);
+  for (auto corner = first; corner != this->Shell.corners.end() && *corner >> 6 == block; ++corner)
+  {
+    known |= std::uint64_t(1) << (*corner & 63);
+    inside |= std::uint64_t(this->Inside[std::size_t(corner - this->Shell.corners.begin())] != 0) << (*corner & 63);
+  }
+  const std::uint64_t unknown = within & ~known;
+  if (unknown != 0 && !this->Field)
+  {
+    inside |= unknown & this->unlabelledOfBlock(block);
+  }
+  for (std::uint64_t left = this->Field ? unknown : 0; left != 0; left &= left - 1)
+  {
+    inside |= std::uint64_t(this->unlabelled(fromMorton(64 * block + std::uint64_t(lowestBit(left))))) << lowestBit(left);
+  }
+  return inside & within;
+}
+
+/** Without a field each point's octant tells, the one that has it for its lowest corner or holds that one. */
+std::uint64_t LatticeLabels::unlabelledOfBlock(std::uint64_t block) const
+{
+  const Octree& octree = *this->TheOctree;
+  OctantCursor octants(octree);
+  std::uint64_t inside = 0;
+  for (unsigned child = 0; child < 8; ++child)
+  {
+    auto octant = octants.locate(fromMorton(64 * block + 8 * child));
+    const int size = octree.lattice.depth - octant.generation; // halvings that are left
+    if (child == 0 && octant.generation >= 0 && size >= 2)
+    {
+      return this->isInside(octant) ? ~std::uint64_t(0) : 0;
+    }
+    if (octant.generation < 0 || size >= 1)
+    {
+      inside |= std::uint64_t(this->isInside(octant) ? 0xff : 0) << 8 * child;
+      continue;
+    }
+    for (unsigned n = 0; n < 8; ++n, ++octant.index)
+    {
+      octant.state = octree.last().state[octant.index];
+      inside |= std::uint64_t(this->isInside(octant)) << (8 * child + n);
+    }
+  }
+  return inside;
 }
 
 int LatticeLabels::cellsAround(const LatticePoint& p, std::array<std::uint32_t, 8>& cells) const

@@ -93,6 +93,8 @@ public:
    * that divides `first`.
    */
   void insideOf(std::uint64_t first, std::size_t count, std::uint8_t* inside) const;
+  /** Labels of the 4 x 4 x 4 points of Morton codes 64 `block` to 64 `block` + 63, a bit each, the first the lowest; 1 inside. */
+  std::uint64_t insideOfBlock(std::uint64_t block) const;
   /** Is a cell of the shell an intersection octant, and not a further cell? */
   bool isSurvivor(std::size_t cell) const { return this->Survivor[cell] != 0; }
   /** Numbers of the surviving cells of the shell around a lattice point, at most eight; returns how many. */
@@ -102,6 +104,8 @@ private:
   /** Label of a lattice point that is no corner of the shell. */
   bool unlabelled(const LatticePoint& p) const;
   void fillUnlabelled(std::uint64_t first, std::size_t count, OctantCursor& octants, std::uint8_t* inside) const;
+  std::uint64_t unlabelledOfBlock(std::uint64_t block) const;
+  bool isInside(const Octree::Location& octant) const;
   void fromOctree();
   void spread(const SurfaceCrossings& crossings);
 
