@@ -348,15 +348,26 @@ std::uint64_t LatticeLabels::insideOfBlock(std::uint64_t block) const
     inside |= std::uint64_t(this->Inside[std::size_t(corner - this->Shell.corners.begin())] != 0) << (*corner & 63);
   }
   const std::uint64_t unknown = within & ~known;
-  if (unknown != 0 && !this->Field)
+  if (unknown != 0)
   {
-    inside |= unknown & this->unlabelledOfBlock(block);
-  }
-  for (std::uint64_t left = this->Field ? unknown : 0; left != 0; left &= left - 1)
-  {
-    inside |= std::uint64_t(this->unlabelled(fromMorton(64 * block + std::uint64_t(lowestBit(left))))) << lowestBit(left);
+    inside |= unknown & (this->Field ? this->unlabelledByField(block, unknown) : this->unlabelledOfBlock(block));
   }
   return inside & within;
+}
+
+/** Of the `asked` points alone. A block lies in one of the field's bricks, or in none. */
+std::uint64_t LatticeLabels::unlabelledByField(std::uint64_t block, std::uint64_t asked) const
+{
+  const std::ptrdiff_t first = this->Field->find(64 * block);
+  std::uint64_t inside = 0;
+  for (; asked != 0; asked &= asked - 1)
+  {
+    const int n = lowestBit(asked);
+    const bool isInside = first >= 0 ? this->Field->values()[std::size_t(first + n)] > 0.0f
+                                     : this->TheOctree->touchesInside(fromMorton(64 * block + std::uint64_t(n)));
+    inside |= std::uint64_t(isInside) << n;
+  }
+  return inside;
 }
 
 /** Without a field each point's octant tells, the one that has it for its lowest corner or holds that one. */

@@ -105,6 +105,7 @@ private:
   bool unlabelled(const LatticePoint& p) const;
   void fillUnlabelled(std::uint64_t first, std::size_t count, OctantCursor& octants, std::uint8_t* inside) const;
   std::uint64_t unlabelledOfBlock(std::uint64_t block) const;
+  std::uint64_t unlabelledByField(std::uint64_t block, std::uint64_t asked) const;
   bool isInside(const Octree::Location& octant) const;
   void fromOctree();
   void spread(const SurfaceCrossings& crossings);
