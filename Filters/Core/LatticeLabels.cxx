@@ -74,6 +74,7 @@ SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice)
   }
   SurfaceCrossings found;
   std::vector<std::pair<LatticeCrossing, std::uint8_t>> all;
+  all.reserve(surface.points.size());
   for (std::size_t i = 0; i < surface.points.size(); ++i)
   {
     LatticeCrossing crossing;
@@ -85,13 +86,16 @@ SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice)
     all.emplace_back(crossing, std::uint8_t(normals[i][axisOf(crossing.edge)] > 0.0));
   }
   // Several points may lie on one edge of a strange surface: the first by position counts.
-  std::sort(all.begin(), all.end(),
-    [](const auto& a, const auto& b)
-    {
-      return a.first.edge != b.first.edge ? a.first.edge < b.first.edge
-        : a.first.fraction != b.first.fraction ? a.first.fraction < b.first.fraction
-                                               : a.second < b.second;
-    });
+  const auto isBefore = [](const auto& a, const auto& b)
+  {
+    return a.first.edge != b.first.edge ? a.first.edge < b.first.edge
+      : a.first.fraction != b.first.fraction ? a.first.fraction < b.first.fraction
+                                             : a.second < b.second;
+  };
+  if (!std::is_sorted(all.begin(), all.end(), isBefore)) // a surface made on this lattice is
+  {
+    std::sort(all.begin(), all.end(), isBefore);
+  }
   for (const auto& one : all)
   {
     if (found.crossings.empty() || found.crossings.back().edge != one.first.edge)
@@ -103,22 +107,37 @@ SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice)
   return found;
 }
 
+std::vector<std::uint16_t> shellVotes(
+  const Octree& octree, const CornerShell& shell, const LatticeViews& views, Execution& execution)
+{
+  Unannounced voting(execution);
+  return cornerVotes(shell, CellViews(octree, shell, views, voting), views, voting);
+}
+
 LatticeLabels::LatticeLabels(
   const Octree& octree, CornerShell shell, const PreparedViews& views, Execution& execution)
   : TheOctree(&octree)
   , Shell(std::move(shell))
-  , Inside(Shell.corners.size())
 {
-  this->setSurvivors(leafCells(octree, OctantState::Intersection));
-  const LatticeViews latticeViews(views, octree.lattice);
-  const int required = views.size() - octree.backgroundVotes;
-  Unannounced voting(execution);
-  const auto votes =
-    cornerVotes(this->Shell, CellViews(octree, this->Shell, latticeViews, voting), latticeViews, voting);
+  this->labelByVotes(shellVotes(octree, this->Shell, LatticeViews(views, octree.lattice), execution));
+}
+
+LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint16_t>& votes)
+  : TheOctree(&octree)
+  , Shell(std::move(shell))
+{
+  this->labelByVotes(votes);
+}
+
+void LatticeLabels::labelByVotes(const std::vector<std::uint16_t>& votes)
+{
+  this->setSurvivors(leafCells(*this->TheOctree, OctantState::Intersection));
   this->Support.assign(votes.begin(), votes.end());
+  this->Inside.resize(votes.size());
+  const int required = this->TheOctree->viewCount - this->TheOctree->backgroundVotes;
   for (std::size_t c = 0; c < votes.size(); ++c)
   {
-    this->Inside[c] = votes[c] >= required && !octree.lattice.onBorder(fromMorton(this->Shell.corners[c]));
+    this->Inside[c] = votes[c] >= required && !this->TheOctree->lattice.onBorder(fromMorton(this->Shell.corners[c]));
   }
 }
 
@@ -206,9 +225,14 @@ void LatticeLabels::spread(const SurfaceCrossings& crossings)
 void LatticeLabels::setSurvivors(const std::vector<std::uint64_t>& cells)
 {
   this->Survivor.assign(this->Shell.cells.size(), 0);
+  auto next = cells.begin();
   for (std::size_t cell = 0; cell < this->Shell.cells.size(); ++cell)
   {
-    this->Survivor[cell] = std::binary_search(cells.begin(), cells.end(), this->Shell.cells[cell]);
+    while (next != cells.end() && *next < this->Shell.cells[cell])
+    {
+      ++next;
+    }
+    this->Survivor[cell] = next != cells.end() && *next == this->Shell.cells[cell];
   }
 }
 

@@ -44,11 +44,17 @@ struct SurfaceCrossings
  */
 SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice);
 
+/** The inside votes of the shell's corners, as CornerVotes.h tells. */
+std::vector<std::uint16_t> shellVotes(
+  const Octree& octree, const CornerShell& shell, const LatticeViews& views, Execution& execution);
+
 class LatticeLabels
 {
 public:
   /** Labels by votes: inside iff at most the octree's k views say background, not on the root cube's border. */
   LatticeLabels(const Octree& octree, CornerShell shell, const PreparedViews& views, Execution& execution);
+  /** The same by votes that are known: those of the shell's corners, by the octree's views. */
+  LatticeLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint16_t>& votes);
   /**
    * Labels without views: corners of inside octants are inside, those of background octants outside; the rest by
    * the surface's crossings, and where an edge has none its ends are alike. What stays unknown is outside.
@@ -107,6 +113,7 @@ private:
   std::uint64_t unlabelledOfBlock(std::uint64_t block) const;
   std::uint64_t unlabelledByField(std::uint64_t block, std::uint64_t asked) const;
   bool isInside(const Octree::Location& octant) const;
+  void labelByVotes(const std::vector<std::uint16_t>& votes);
   void fromOctree();
   void spread(const SurfaceCrossings& crossings);
 
