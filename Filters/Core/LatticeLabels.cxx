@@ -300,40 +300,6 @@ bool LatticeLabels::insideAt(const LatticePoint& p) const
   return corner >= 0 ? this->Inside[corner] != 0 : this->unlabelled(p);
 }
 
-void LatticeLabels::insideOf(std::uint64_t first, std::size_t count, std::uint8_t* inside) const
-{
-  const auto corners = this->Shell.corners.begin();
-  const auto from = std::lower_bound(corners, this->Shell.corners.end(), first);
-  const auto to = std::lower_bound(from, this->Shell.corners.end(), first + count);
-  OctantCursor octants(*this->TheOctree);
-  this->fillUnlabelled(first, count, octants, inside);
-  for (auto corner = from; corner != to; ++corner)
-  {
-    const bool onBorder = this->TheOctree->lattice.onBorder(fromMorton(*corner));
-    inside[*corner - first] = this->Inside[std::size_t(corner - corners)] && !onBorder;
-  }
-}
-
-/** An octant that holds all of the points tells once for all of them. */
-void LatticeLabels::fillUnlabelled(
-  std::uint64_t first, std::size_t count, OctantCursor& octants, std::uint8_t* inside) const
-{
-  const LatticePoint low = fromMorton(first), high = fromMorton(first + count - 1);
-  const Octree& octree = *this->TheOctree;
-  const auto location = octants.locate(low);
-  const bool within = std::min({ low.i, low.j, low.k }) > 0 && octree.lattice.hasCell(high);
-  if (count == 1 || (!this->Field && within && location.generation >= 0 &&
-                      std::size_t(1) << 3 * (octree.lattice.depth - location.generation) >= count))
-  {
-    std::fill_n(inside, count, std::uint8_t(this->unlabelled(low)));
-    return;
-  }
-  for (std::size_t child = 0; child < 8; ++child)
-  {
-    this->fillUnlabelled(first + child * (count / 8), count / 8, octants, inside + child * (count / 8));
-  }
-}
-
 bool LatticeLabels::unlabelled(const LatticePoint& p) const
 {
   if (this->TheOctree->lattice.onBorder(p))

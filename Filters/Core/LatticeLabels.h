@@ -94,11 +94,6 @@ public:
 
   /** Label of any lattice point. */
   bool insideAt(const LatticePoint& p) const;
-  /**
-   * Labels of `count` points in Morton order from `first` on: 1 inside, 0 outside. `count` is a power of eight
-   * that divides `first`.
-   */
-  void insideOf(std::uint64_t first, std::size_t count, std::uint8_t* inside) const;
   /** Labels of the 4 x 4 x 4 points of Morton codes 64 `block` to 64 `block` + 63, a bit each, the first the lowest; 1 inside. */
   std::uint64_t insideOfBlock(std::uint64_t block) const;
   /** Is a cell of the shell an intersection octant, and not a further cell? */
@@ -109,7 +104,6 @@ public:
 private:
   /** Label of a lattice point that is no corner of the shell. */
   bool unlabelled(const LatticePoint& p) const;
-  void fillUnlabelled(std::uint64_t first, std::size_t count, OctantCursor& octants, std::uint8_t* inside) const;
   std::uint64_t unlabelledOfBlock(std::uint64_t block) const;
   std::uint64_t unlabelledByField(std::uint64_t block, std::uint64_t asked) const;
   bool isInside(const Octree::Location& octant) const;

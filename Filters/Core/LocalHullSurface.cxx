@@ -262,6 +262,30 @@ struct ThinParts
   }
 };
 
+/** Labels of the corners of a shell, most of which are of the labels' own. */
+std::vector<std::uint8_t> labelsOf(const LatticeLabels& labels, const CornerShell& shell, Execution& execution)
+{
+  std::vector<std::uint8_t> inside(shell.corners.size());
+  execution.forRanges(inside.size(), 1024,
+    [&](std::size_t first, std::size_t last)
+    {
+      const auto& own = labels.shell().corners;
+      auto at = std::lower_bound(own.begin(), own.end(), shell.corners[first]);
+      for (std::size_t c = first; c < last; ++c)
+      {
+        while (at != own.end() && *at < shell.corners[c])
+        {
+          ++at;
+        }
+        const LatticePoint p = fromMorton(shell.corners[c]);
+        inside[c] = at != own.end() && *at == shell.corners[c]
+          ? labels.inside()[std::size_t(at - own.begin())] && !labels.octree().lattice.onBorder(p)
+          : labels.insideAt(p);
+      }
+    });
+  return inside;
+}
+
 /** Contour the labels, place the points, and round the thin parts. */
 void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const CoveringResult& covering, const CrossingPlacer& place,
   const std::vector<std::uint64_t>& added, const LatticeViews* views, const LocalHullOptions& options,
@@ -274,16 +298,7 @@ void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const 
     extended = extendedShell(labels.shell(), added, execution);
   }
   const CornerShell& shell = extended ? *extended : labels.shell();
-  std::vector<std::uint8_t> inside(shell.corners.size());
-  execution.forRanges(inside.size(), 1024,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t c = first; c < last; ++c)
-      {
-        const LatticePoint p = fromMorton(shell.corners[c]);
-        inside[c] = extended ? labels.insideAt(p) : labels.inside()[c] && !lattice.onBorder(p);
-      }
-    });
+  const std::vector<std::uint8_t> inside = labelsOf(labels, shell, execution);
   execution.checkpoint(0.2);
   const LatticeSurface contoured = contour(shell, inside, execution);
   const std::vector<double> fractions = place.fractions(shell, contoured, execution);

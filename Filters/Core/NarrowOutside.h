@@ -24,7 +24,8 @@ public:
 
   /**
    * `width`: octants, 1 or more, along an edge of the cubes. The labels have to outlive this, and their shell to hold each cell with corners of both
-   * labels. Cost: linear in the lattice points within some `width` octants of the surface, a word for 64 of them.
+   * labels. A cube that begins below the lattice is taken to fit, so that a point less than `width` from there is wide. Cost: linear in the lattice
+   * points within some `width` octants of the surface, a word for 64 of them.
    */
   NarrowOutside(const LatticeLabels& labels, int width, Execution& execution);
 

@@ -161,6 +161,7 @@ bool holdsAround(const CornerShell& shell, const std::vector<std::uint64_t>& poi
 CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
 {
   std::vector<std::uint64_t> cells = shell.cells;
+  const bool isInOrder = std::is_sorted(cells.begin(), cells.end(), std::less_equal<std::uint64_t>());
   for (const std::uint64_t point : points)
   {
     const LatticePoint p = fromMorton(point);
@@ -170,7 +171,14 @@ CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint6
       cells.push_back(mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k }));
     }
   }
-  if (!std::is_sorted(cells.begin(), cells.end(), std::less_equal<std::uint64_t>()))
+  if (isInOrder)
+  {
+    const auto more = cells.begin() + std::ptrdiff_t(shell.cells.size());
+    std::sort(more, cells.end());
+    std::inplace_merge(cells.begin(), more, cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  }
+  else
   {
     sortUnique(cells);
   }
