@@ -2,6 +2,7 @@
 #include "SilhouetteRepair.h"
 
 #include "LatticeLabels.h"
+#include "RadixSort.h"
 #include "SilhouetteDissent.h"
 #include "SilhouetteSpeckles.h"
 #include "UnionFind.h"
@@ -132,7 +133,8 @@ std::vector<Rejected> findRejected(const Octree& octree, const LatticeViews& vie
         }
       }
     }
-    sortUnique(next);
+    radixSort(next, 3 * (views.lattice().depth + 1), [](std::uint64_t code) { return code; });
+    next.erase(std::unique(next.begin(), next.end()), next.end());
     for (const auto* wave : {&before, &now})
     {
       fresh.clear();

@@ -188,6 +188,41 @@ private:
 
   void push(std::size_t n) { this->Front.emplace(-this->support(n), -std::ptrdiff_t(n), n); }
 
+  /** Into how many parts the wide outside beside a point falls, if no way but through the points within two octants counts. */
+  int partsNearby(const LatticePoint& p) const
+  {
+    const int reach = std::min(this->Width, 2), side = 2 * reach + 1, count = side * side * side;
+    const auto pointAt = [&](int n) { return p + LatticePoint{ n % side - reach, n / side % side - reach, n / side / side - reach }; };
+    std::array<bool, 125> wide{};
+    UnionFind sets(std::size_t{ 125 });
+    for (int n = 0; n < count; ++n)
+    {
+      const LatticePoint q = pointAt(n);
+      const int cells = this->Labels.octree().lattice.cells();
+      const bool ofLattice = std::min({ q.i, q.j, q.k }) >= 0 && std::max({ q.i, q.j, q.k }) <= cells;
+      wide[std::size_t(n)] = ofLattice && !(q == p) && isWide(this->Outside.at(q));
+      const int steps[3] = { 1, side, side * side }, coordinates[3] = { n % side, n / side % side, n / side / side };
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        if (coordinates[axis] > 0 && wide[std::size_t(n)] && wide[std::size_t(n - steps[axis])])
+        {
+          sets.unite(std::uint32_t(n), std::uint32_t(n - steps[axis]));
+        }
+      }
+    }
+    std::vector<std::uint32_t> roots;
+    const int centre = count / 2;
+    for (const int step : { -1, 1, -side, side, -side * side, side * side })
+    {
+      if (wide[std::size_t(centre + step)])
+      {
+        roots.push_back(sets.find(std::uint32_t(centre + step)));
+      }
+    }
+    std::sort(roots.begin(), roots.end());
+    return int(std::unique(roots.begin(), roots.end()) - roots.begin());
+  }
+
   /** Does the outside touch the point, and with parts that are not connected otherwise? */
   bool mayTake(std::size_t n)
   {
@@ -201,6 +236,10 @@ private:
     if (touching <= 1)
     {
       return touching == 1;
+    }
+    if (this->partsNearby(p) < touching)
+    {
+      return false;
     }
     if (!this->Sets)
     {
