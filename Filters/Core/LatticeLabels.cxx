@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LatticeLabels.h"
 
+#include "Bits.h"
+#include "BlockBits.h"
 #include "CornerVotes.h"
 #include "MarchingCubesTable.h"
 
@@ -72,6 +74,7 @@ SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice)
   }
   SurfaceCrossings found;
   std::vector<std::pair<LatticeCrossing, std::uint8_t>> all;
+  all.reserve(surface.points.size());
   for (std::size_t i = 0; i < surface.points.size(); ++i)
   {
     LatticeCrossing crossing;
@@ -83,13 +86,16 @@ SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice)
     all.emplace_back(crossing, std::uint8_t(normals[i][axisOf(crossing.edge)] > 0.0));
   }
   // Several points may lie on one edge of a strange surface: the first by position counts.
-  std::sort(all.begin(), all.end(),
-    [](const auto& a, const auto& b)
-    {
-      return a.first.edge != b.first.edge ? a.first.edge < b.first.edge
-        : a.first.fraction != b.first.fraction ? a.first.fraction < b.first.fraction
-                                               : a.second < b.second;
-    });
+  const auto isBefore = [](const auto& a, const auto& b)
+  {
+    return a.first.edge != b.first.edge ? a.first.edge < b.first.edge
+      : a.first.fraction != b.first.fraction ? a.first.fraction < b.first.fraction
+                                             : a.second < b.second;
+  };
+  if (!std::is_sorted(all.begin(), all.end(), isBefore)) // a surface made on this lattice is
+  {
+    std::sort(all.begin(), all.end(), isBefore);
+  }
   for (const auto& one : all)
   {
     if (found.crossings.empty() || found.crossings.back().edge != one.first.edge)
@@ -101,22 +107,37 @@ SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice)
   return found;
 }
 
+std::vector<std::uint16_t> shellVotes(
+  const Octree& octree, const CornerShell& shell, const LatticeViews& views, Execution& execution)
+{
+  Unannounced voting(execution);
+  return cornerVotes(shell, CellViews(octree, shell, views, voting), views, voting);
+}
+
 LatticeLabels::LatticeLabels(
   const Octree& octree, CornerShell shell, const PreparedViews& views, Execution& execution)
   : TheOctree(&octree)
   , Shell(std::move(shell))
-  , Inside(Shell.corners.size())
 {
-  this->setSurvivors(leafCells(octree, OctantState::Intersection));
-  const LatticeViews latticeViews(views, octree.lattice);
-  const int required = views.size() - octree.backgroundVotes;
-  Unannounced voting(execution);
-  const auto votes =
-    cornerVotes(this->Shell, CellViews(octree, this->Shell, latticeViews, voting), latticeViews, voting);
+  this->labelByVotes(shellVotes(octree, this->Shell, LatticeViews(views, octree.lattice), execution));
+}
+
+LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint16_t>& votes)
+  : TheOctree(&octree)
+  , Shell(std::move(shell))
+{
+  this->labelByVotes(votes);
+}
+
+void LatticeLabels::labelByVotes(const std::vector<std::uint16_t>& votes)
+{
+  this->setSurvivors(leafCells(*this->TheOctree, OctantState::Intersection));
   this->Support.assign(votes.begin(), votes.end());
+  this->Inside.resize(votes.size());
+  const int required = this->TheOctree->viewCount - this->TheOctree->backgroundVotes;
   for (std::size_t c = 0; c < votes.size(); ++c)
   {
-    this->Inside[c] = votes[c] >= required && !octree.lattice.onBorder(fromMorton(this->Shell.corners[c]));
+    this->Inside[c] = votes[c] >= required && !this->TheOctree->lattice.onBorder(fromMorton(this->Shell.corners[c]));
   }
 }
 
@@ -204,9 +225,14 @@ void LatticeLabels::spread(const SurfaceCrossings& crossings)
 void LatticeLabels::setSurvivors(const std::vector<std::uint64_t>& cells)
 {
   this->Survivor.assign(this->Shell.cells.size(), 0);
+  auto next = cells.begin();
   for (std::size_t cell = 0; cell < this->Shell.cells.size(); ++cell)
   {
-    this->Survivor[cell] = std::binary_search(cells.begin(), cells.end(), this->Shell.cells[cell]);
+    while (next != cells.end() && *next < this->Shell.cells[cell])
+    {
+      ++next;
+    }
+    this->Survivor[cell] = next != cells.end() && *next == this->Shell.cells[cell];
   }
 }
 
@@ -274,40 +300,6 @@ bool LatticeLabels::insideAt(const LatticePoint& p) const
   return corner >= 0 ? this->Inside[corner] != 0 : this->unlabelled(p);
 }
 
-void LatticeLabels::insideOf(std::uint64_t first, std::size_t count, std::uint8_t* inside) const
-{
-  const auto corners = this->Shell.corners.begin();
-  const auto from = std::lower_bound(corners, this->Shell.corners.end(), first);
-  const auto to = std::lower_bound(from, this->Shell.corners.end(), first + count);
-  OctantCursor octants(*this->TheOctree);
-  this->fillUnlabelled(first, count, octants, inside);
-  for (auto corner = from; corner != to; ++corner)
-  {
-    const bool onBorder = this->TheOctree->lattice.onBorder(fromMorton(*corner));
-    inside[*corner - first] = this->Inside[std::size_t(corner - corners)] && !onBorder;
-  }
-}
-
-/** An octant that holds all of the points tells once for all of them. */
-void LatticeLabels::fillUnlabelled(
-  std::uint64_t first, std::size_t count, OctantCursor& octants, std::uint8_t* inside) const
-{
-  const LatticePoint low = fromMorton(first), high = fromMorton(first + count - 1);
-  const Octree& octree = *this->TheOctree;
-  const auto location = octants.locate(low);
-  const bool within = std::min({ low.i, low.j, low.k }) > 0 && octree.lattice.hasCell(high);
-  if (count == 1 || (!this->Field && within && location.generation >= 0 &&
-                      std::size_t(1) << 3 * (octree.lattice.depth - location.generation) >= count))
-  {
-    std::fill_n(inside, count, std::uint8_t(this->unlabelled(low)));
-    return;
-  }
-  for (std::size_t child = 0; child < 8; ++child)
-  {
-    this->fillUnlabelled(first + child * (count / 8), count / 8, octants, inside + child * (count / 8));
-  }
-}
-
 bool LatticeLabels::unlabelled(const LatticePoint& p) const
 {
   if (this->TheOctree->lattice.onBorder(p))
@@ -324,11 +316,76 @@ bool LatticeLabels::unlabelled(const LatticePoint& p) const
     return this->TheOctree->touchesInside(p);
   }
   // No intersection octant of the last generation touches it: every octant around it tells.
-  const auto location = this->TheOctree->locate(p);
-  return location.state == OctantState::Inside ||
+  return this->isInside(this->TheOctree->locate(p));
+}
+
+/** By the octree and the cavities that were filled. */
+bool LatticeLabels::isInside(const Octree::Location& octant) const
+{
+  return octant.state == OctantState::Inside ||
     (!this->Filled.empty() &&
-      std::binary_search(
-        this->Filled.begin(), this->Filled.end(), std::make_pair(location.generation, location.index)));
+      std::binary_search(this->Filled.begin(), this->Filled.end(), std::make_pair(octant.generation, octant.index)));
+}
+
+std::uint64_t LatticeLabels::insideOfBlock(std::uint64_t block) const
+{
+  const std::uint64_t within = withinBorder(this->TheOctree->lattice, block);
+  std::uint64_t known = 0, inside = 0;
+  const auto first = std::lower_bound(this->Shell.corners.begin(), this->Shell.corners.end(), 64 * block);
+  for (auto corner = first; corner != this->Shell.corners.end() && *corner >> 6 == block; ++corner)
+  {
+    known |= std::uint64_t(1) << (*corner & 63);
+    inside |= std::uint64_t(this->Inside[std::size_t(corner - this->Shell.corners.begin())] != 0) << (*corner & 63);
+  }
+  const std::uint64_t unknown = within & ~known;
+  if (unknown != 0)
+  {
+    inside |= unknown & (this->Field ? this->unlabelledByField(block, unknown) : this->unlabelledOfBlock(block));
+  }
+  return inside & within;
+}
+
+/** Of the `asked` points alone. A block lies in one of the field's bricks, or in none. */
+std::uint64_t LatticeLabels::unlabelledByField(std::uint64_t block, std::uint64_t asked) const
+{
+  const std::ptrdiff_t first = this->Field->find(64 * block);
+  std::uint64_t inside = 0;
+  for (; asked != 0; asked &= asked - 1)
+  {
+    const int n = lowestBit(asked);
+    const bool isInside = first >= 0 ? this->Field->values()[std::size_t(first + n)] > 0.0f
+                                     : this->TheOctree->touchesInside(fromMorton(64 * block + std::uint64_t(n)));
+    inside |= std::uint64_t(isInside) << n;
+  }
+  return inside;
+}
+
+/** Without a field each point's octant tells, the one that has it for its lowest corner or holds that one. */
+std::uint64_t LatticeLabels::unlabelledOfBlock(std::uint64_t block) const
+{
+  const Octree& octree = *this->TheOctree;
+  OctantCursor octants(octree);
+  std::uint64_t inside = 0;
+  for (unsigned child = 0; child < 8; ++child)
+  {
+    auto octant = octants.locate(fromMorton(64 * block + 8 * child));
+    const int size = octree.lattice.depth - octant.generation; // halvings that are left
+    if (child == 0 && octant.generation >= 0 && size >= 2)
+    {
+      return this->isInside(octant) ? ~std::uint64_t(0) : 0;
+    }
+    if (octant.generation < 0 || size >= 1)
+    {
+      inside |= std::uint64_t(this->isInside(octant) ? 0xff : 0) << 8 * child;
+      continue;
+    }
+    for (unsigned n = 0; n < 8; ++n, ++octant.index)
+    {
+      octant.state = octree.last().state[octant.index];
+      inside |= std::uint64_t(this->isInside(octant)) << (8 * child + n);
+    }
+  }
+  return inside;
 }
 
 int LatticeLabels::cellsAround(const LatticePoint& p, std::array<std::uint32_t, 8>& cells) const

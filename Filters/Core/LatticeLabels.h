@@ -44,11 +44,17 @@ struct SurfaceCrossings
  */
 SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice);
 
+/** The inside votes of the shell's corners, as CornerVotes.h tells. */
+std::vector<std::uint16_t> shellVotes(
+  const Octree& octree, const CornerShell& shell, const LatticeViews& views, Execution& execution);
+
 class LatticeLabels
 {
 public:
   /** Labels by votes: inside iff at most the octree's k views say background, not on the root cube's border. */
   LatticeLabels(const Octree& octree, CornerShell shell, const PreparedViews& views, Execution& execution);
+  /** The same by votes that are known: those of the shell's corners, by the octree's views. */
+  LatticeLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint16_t>& votes);
   /**
    * Labels without views: corners of inside octants are inside, those of background octants outside; the rest by
    * the surface's crossings, and where an edge has none its ends are alike. What stays unknown is outside.
@@ -88,11 +94,8 @@ public:
 
   /** Label of any lattice point. */
   bool insideAt(const LatticePoint& p) const;
-  /**
-   * Labels of `count` points in Morton order from `first` on: 1 inside, 0 outside. `count` is a power of eight
-   * that divides `first`.
-   */
-  void insideOf(std::uint64_t first, std::size_t count, std::uint8_t* inside) const;
+  /** Labels of the 4 x 4 x 4 points of Morton codes 64 `block` to 64 `block` + 63, a bit each, the first the lowest; 1 inside. */
+  std::uint64_t insideOfBlock(std::uint64_t block) const;
   /** Is a cell of the shell an intersection octant, and not a further cell? */
   bool isSurvivor(std::size_t cell) const { return this->Survivor[cell] != 0; }
   /** Numbers of the surviving cells of the shell around a lattice point, at most eight; returns how many. */
@@ -101,7 +104,10 @@ public:
 private:
   /** Label of a lattice point that is no corner of the shell. */
   bool unlabelled(const LatticePoint& p) const;
-  void fillUnlabelled(std::uint64_t first, std::size_t count, OctantCursor& octants, std::uint8_t* inside) const;
+  std::uint64_t unlabelledOfBlock(std::uint64_t block) const;
+  std::uint64_t unlabelledByField(std::uint64_t block, std::uint64_t asked) const;
+  bool isInside(const Octree::Location& octant) const;
+  void labelByVotes(const std::vector<std::uint16_t>& votes);
   void fromOctree();
   void spread(const SurfaceCrossings& crossings);
 

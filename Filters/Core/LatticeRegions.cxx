@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LatticeRegions.h"
 
+#include "BlockBits.h"
 #include "MarchingCubesTable.h"
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
 
 namespace silhouette
@@ -50,44 +52,90 @@ LatticeRegions emptyRegions(const Octree& octree, std::size_t corners)
   return regions;
 }
 
-/**
- * Join octants of one state across their faces. Every pair of neighbours is met from its smaller octant. With
- * `beyond`, octants at the root cube's border are joined to the world beyond.
- */
+/** Joins octants of one state across their faces. Every pair of neighbours is met from its smaller octant. */
+class OctantJoining
+{
+public:
+  /** With `beyond`, octants at the root cube's border are joined to the world beyond. Refuted ones, if any are named, join nothing. */
+  OctantJoining(const Octree& octree, OctantState state, bool beyond, const std::vector<std::uint8_t>& refuted, LatticeRegions& regions)
+    : Source(octree)
+    , State(state)
+    , Beyond(beyond)
+    , Refuted(refuted)
+    , Regions(regions)
+    , Cursors{ OctantCursor(octree), OctantCursor(octree), OctantCursor(octree), OctantCursor(octree), OctantCursor(octree),
+      OctantCursor(octree) }
+  {
+  }
+
+  void run()
+  {
+    forOctants(this->Source, this->State,
+      [&](int g, std::size_t i)
+      {
+        if (this->counts(g, i))
+        {
+          this->joinToSiblings(g, i);
+          for (int side = 0; side < 6; ++side)
+          {
+            this->joinBeside(g, i, side / 2, side % 2 != 0);
+          }
+        }
+      });
+  }
+
+private:
+  bool counts(int g, std::size_t i) const { return this->Refuted.empty() || !this->Refuted[this->Regions.place(g, i)]; }
+
+  /** The octants of a parent are eight in a row. */
+  void joinToSiblings(int g, std::size_t i)
+  {
+    const std::uint64_t code = this->Source.generations[g].code[i];
+    for (std::size_t step = 1; g > this->Source.treeGeneration && step < 8; step *= 2)
+    {
+      if (!(code & step) && this->Source.generations[g].state[i + step] == this->State && this->counts(g, i + step))
+      {
+        this->Regions.sets.unite(this->Regions.octant(g, i), this->Regions.octant(g, i + step));
+      }
+    }
+  }
+
+  /** Across a face that is one of the parent's too; roots have no parent. */
+  void joinBeside(int g, std::size_t i, int axis, bool ahead)
+  {
+    const std::uint64_t code = this->Source.generations[g].code[i];
+    if (g > this->Source.treeGeneration && (code >> axis & 1) != std::uint64_t(ahead))
+    {
+      return;
+    }
+    std::uint64_t other = 0;
+    const bool exists = besideBlock(code, axis, ahead, other);
+    if (!exists || other >> 3 * g != 0)
+    {
+      if (this->Beyond)
+      {
+        this->Regions.sets.unite(this->Regions.octant(g, i), this->Regions.beyond);
+      }
+      return;
+    }
+    const auto found = this->Cursors[std::size_t(2 * axis + ahead)].locate(other << 3 * (this->Source.lattice.depth - g));
+    if (found.generation >= 0 && found.generation <= g && found.state == this->State && this->counts(found.generation, found.index))
+    {
+      this->Regions.sets.unite(this->Regions.octant(g, i), this->Regions.octant(found.generation, found.index));
+    }
+  }
+
+  const Octree& Source;
+  OctantState State;
+  bool Beyond;
+  const std::vector<std::uint8_t>& Refuted;
+  LatticeRegions& Regions;
+  std::array<OctantCursor, 6> Cursors; ///< one for each side
+};
+
 void joinOctants(const Octree& octree, OctantState state, bool beyond, const std::vector<std::uint8_t>& refuted, LatticeRegions& regions)
 {
-  const auto counts = [&](int g, std::size_t i) { return refuted.empty() || !refuted[regions.place(g, i)]; };
-  const OctantCursor cursor(octree);
-  std::array<OctantCursor, 6> cursors{ cursor, cursor, cursor, cursor, cursor, cursor };
-  forOctants(octree, state,
-    [&](int g, std::size_t i)
-    {
-      if (!counts(g, i))
-      {
-        return;
-      }
-      const LatticePoint p = lowestCell(octree, g, i);
-      const std::int32_t size = std::int32_t(1) << (octree.lattice.depth - g);
-      const LatticePoint across[6] = { { p.i - 1, p.j, p.k }, { p.i + size, p.j, p.k }, { p.i, p.j - 1, p.k },
-        { p.i, p.j + size, p.k }, { p.i, p.j, p.k - 1 }, { p.i, p.j, p.k + size } };
-      for (int side = 0; side < 6; ++side)
-      {
-        const LatticePoint& cell = across[side];
-        if (!octree.lattice.hasCell(cell))
-        {
-          if (beyond)
-          {
-            regions.sets.unite(regions.octant(g, i), regions.beyond);
-          }
-          continue;
-        }
-        const auto other = cursors[side].locate(cell);
-        if (other.generation >= 0 && other.generation <= g && other.state == state && counts(other.generation, other.index))
-        {
-          regions.sets.unite(regions.octant(g, i), regions.octant(other.generation, other.index));
-        }
-      }
-    });
+  OctantJoining(octree, state, beyond, refuted, regions).run();
 }
 
 /** One for each cell around a corner: going through corners in Morton order, each stays in the same octants for long. */
@@ -141,18 +189,44 @@ void joinWithinOctant(const LatticeLabels& labels, const LatticePoint& p, std::u
   }
 }
 
-/** Call `meet(location)` for the octants of one state that touch a lattice point; `others` are known to have another one. */
+/**
+ * Call `meet(location)` for the octants of one state that touch a lattice point; `others`, a bit for each cell around it, are known to have another
+ * state. Cells of one parent are looked for once.
+ */
 template <typename Meet>
-void forOctantsAround(CursorsAround& octants, const LatticePoint& p, std::uint8_t others, OctantState state, const Meet& meet)
+void forOctantsAround(
+  CursorsAround& octants, const Octree& octree, std::uint64_t corner, std::uint8_t others, OctantState state, const Meet& meet)
 {
-  for (int n = 0; n < 8; ++n)
+  const Lattice& lattice = octree.lattice;
+  if (others == 0xff)
+  {
+    return;
+  }
+  const LatticePoint p = fromMorton(corner);
+  const bool onBorder = lattice.onBorder(p);
+  const unsigned odd = unsigned(corner & 7); // on these axes the cells on either side have one parent
+  std::array<Octree::Location, 8> firsts;
+  unsigned known = 0;
+  for (unsigned n = 0; n < 8; ++n)
   {
     if (others >> n & 1)
     {
       continue;
     }
-    const LatticePoint o = cornerOffset(n);
-    const auto location = octants[n].locate({ p.i - o.i, p.j - o.j, p.k - o.k });
+    const unsigned first = n | odd;
+    if (!(known >> first & 1))
+    {
+      known |= 1u << first;
+      const LatticePoint o = cornerOffset(int(first));
+      const LatticePoint cell{ p.i - o.i, p.j - o.j, p.k - o.k };
+      firsts[first] = onBorder ? octants[first].locate(cell) : octants[first].locate(mortonCode(cell));
+    }
+    Octree::Location location = firsts[first];
+    if (location.generation == lattice.depth)
+    {
+      location.index += first & ~n;
+      location.state = octree.last().state[location.index];
+    }
     if (location.generation >= 0 && location.state == state)
     {
       meet(location);
@@ -212,7 +286,7 @@ std::vector<std::uint8_t> enteredOctants(const LatticeLabels& labels, const Latt
   {
     if (labels.inside()[c])
     {
-      forOctantsAround(octants, fromMorton(labels.shell().corners[c]), 0, OctantState::Background,
+      forOctantsAround(octants, labels.octree(), labels.shell().corners[c], 0, OctantState::Background,
         [&](const Octree::Location& at)
         {
           if (at.generation < labels.octree().lattice.depth)
@@ -229,25 +303,54 @@ std::vector<std::uint8_t> enteredOctants(const LatticeLabels& labels, const Latt
 constexpr std::uint8_t FaceDiagonals[12][2] = { { 0, 6 }, { 2, 4 }, { 1, 7 }, { 3, 5 }, { 0, 5 }, { 1, 4 },
   { 2, 7 }, { 3, 6 }, { 0, 3 }, { 1, 2 }, { 4, 7 }, { 5, 6 } };
 
+/** For each set of a cell's corners: what each of them is joined to, the lowest one that it meets within the cell. */
+struct CornerJoints
+{
+  std::uint8_t lowest[256][8];
+
+  /** Corners are joined along edges and, with `diagonals`, along the diagonals of faces. */
+  explicit CornerJoints(bool diagonals)
+  {
+    for (unsigned members = 0; members < 256; ++members)
+    {
+      UnionFind sets(8);
+      const auto join = [&](const auto& pair)
+      {
+        if ((members >> pair[0] & 1) != 0 && (members >> pair[1] & 1) != 0)
+        {
+          sets.unite(pair[0], pair[1]);
+        }
+      };
+      std::for_each(std::begin(edgeCorners), std::end(edgeCorners), join);
+      if (diagonals)
+      {
+        std::for_each(std::begin(FaceDiagonals), std::end(FaceDiagonals), join);
+      }
+      for (std::uint32_t c = 0; c < 8; ++c)
+      {
+        this->lowest[members][c] = std::uint8_t(sets.find(c));
+      }
+    }
+  }
+};
+
 void joinCorners(const LatticeLabels& labels, bool inside, LatticeRegions& regions)
 {
-  const auto& label = labels.inside();
-  const auto join = [&](std::uint32_t a, std::uint32_t b)
-  {
-    if ((label[a] != 0) == inside && (label[b] != 0) == inside)
-    {
-      regions.sets.unite(a, b);
-    }
-  };
+  static const CornerJoints along[2] = { CornerJoints(false), CornerJoints(true) };
+  const auto& lowest = along[inside].lowest;
   for (const auto& corners : labels.shell().cellCorners)
   {
-    for (const auto& edge : edgeCorners)
+    unsigned members = 0;
+    for (int c = 0; c < 8; ++c)
     {
-      join(corners[edge[0]], corners[edge[1]]);
+      members |= unsigned((labels.inside()[corners[c]] != 0) == inside) << c;
     }
-    for (int d = 0; inside && d < 12; ++d)
+    for (int c = 1; c < 8; ++c)
     {
-      join(corners[FaceDiagonals[d][0]], corners[FaceDiagonals[d][1]]);
+      if (lowest[members][c] != c)
+      {
+        regions.sets.unite(corners[lowest[members][c]], corners[c]);
+      }
     }
   }
 }
@@ -275,7 +378,7 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
     }
     if ((labels.inside()[c] != 0) == inside)
     {
-      forOctantsAround(octants, p, around[c], state,
+      forOctantsAround(octants, octree, shell.corners[c], around[c], state,
         [&](const Octree::Location& at)
         {
           const std::uint32_t octant = regions.octant(at.generation, at.index);
@@ -401,7 +504,7 @@ LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell)
   const std::vector<std::uint8_t> around = intersectionAround(octree, shell);
   for (std::size_t c = 0; c < shell.corners.size(); ++c)
   {
-    forOctantsAround(octants, fromMorton(shell.corners[c]), around[c], OctantState::Inside,
+    forOctantsAround(octants, octree, shell.corners[c], around[c], OctantState::Inside,
       [&](const Octree::Location& at)
       { regions.sets.unite(std::uint32_t(c), regions.octant(at.generation, at.index)); });
   }

@@ -19,6 +19,7 @@ namespace silhouette
 namespace
 {
 
+constexpr std::uint64_t AlongX = 0x1249249249249249ULL; ///< the bits of x in a Morton code
 constexpr double CoverReach = 3.0; ///< octants: corners farther outside than that are alike
 
 void check(const Octree& octree, const PreparedViews* views, const LocalHullOptions& options)
@@ -71,17 +72,42 @@ public:
     }
   }
 
-  double operator()(std::uint64_t inside, std::uint64_t outside) const
+  /** For each crossed edge of a surface of the shell, the fraction of it from its inside end. */
+  std::vector<double> fractions(const CornerShell& shell, const LatticeSurface& contoured, Execution& execution) const
   {
-    if (std::binary_search(this->Added.begin(), this->Added.end(), inside))
-    {
-      return this->CoverOffset;
-    }
-    return std::clamp(this->Field ? this->inField(inside, outside) : this->onSurface(inside, outside), CrossingMargin,
-      1.0 - CrossingMargin);
+    std::vector<double> fractions(contoured.edges.size());
+    const std::vector<std::uint8_t> isAdded = this->addedCorners(shell);
+    execution.forRanges(fractions.size(), 256,
+      [&](std::size_t first, std::size_t last)
+      {
+        Known known = this->from(keyOf(shell.corners[contoured.edges[first].inside], shell.corners[contoured.edges[first].outside])); // crossings are in the edges' own order
+        for (std::size_t e = first; e < last; ++e)
+        {
+          const CrossedEdge& edge = contoured.edges[e];
+          const std::uint64_t inside = shell.corners[edge.inside], outside = shell.corners[edge.outside];
+          fractions[e] = isAdded[edge.inside] ? this->CoverOffset
+                                              : std::clamp(this->Field ? this->inField(inside, outside)
+                                                                       : this->onSurface(inside, outside, known),
+                                                  CrossingMargin, 1.0 - CrossingMargin);
+        }
+      });
+    return fractions;
   }
 
 private:
+  using Known = std::vector<LatticeCrossing>::const_iterator;
+
+  /** A 1 for each corner of the shell that was added. */
+  std::vector<std::uint8_t> addedCorners(const CornerShell& shell) const
+  {
+    std::vector<std::uint8_t> isAdded(shell.corners.size(), 0);
+    for (const std::uint64_t corner : this->Added)
+    {
+      isAdded[std::size_t(shell.find(corner))] = 1;
+    }
+    return isAdded;
+  }
+
   double inField(std::uint64_t inside, std::uint64_t outside) const
   {
     const std::ptrdiff_t a = this->Field->find(inside), b = this->Field->find(outside);
@@ -93,18 +119,33 @@ private:
     return from > 0.0 && to <= 0.0 ? from / (from - to) : 0.5;
   }
 
-  double onSurface(std::uint64_t inside, std::uint64_t outside) const
+  static std::uint64_t keyOf(std::uint64_t end, std::uint64_t other)
   {
-    const LatticePoint a = fromMorton(inside), b = fromMorton(outside);
-    const int axis = a.i != b.i ? 0 : (a.j != b.j ? 1 : 2);
-    const bool ascending = b.i + b.j + b.k > a.i + a.j + a.k;
-    const auto known = this->Crossings.find(edgeKey(ascending ? inside : outside, axis));
-    if (known >= 0)
+    const std::uint64_t differing = end ^ other;
+    return edgeKey(std::min(end, other), (differing & AlongX) != 0 ? 0 : (differing & AlongX << 1) != 0 ? 1 : 2);
+  }
+
+  /** The first crossing that is not before an edge. */
+  Known from(std::uint64_t key) const
+  {
+    return std::lower_bound(this->Crossings.crossings.begin(), this->Crossings.crossings.end(), key,
+      [](const LatticeCrossing& crossing, std::uint64_t edge) { return crossing.edge < edge; });
+  }
+
+  /** `known` is before or at the edge's place among the crossings, and is moved there. */
+  double onSurface(std::uint64_t inside, std::uint64_t outside, Known& known) const
+  {
+    const std::uint64_t key = keyOf(inside, outside);
+    const auto end = this->Crossings.crossings.end();
+    while (known != end && known->edge < key)
     {
-      const double fraction = this->Crossings.crossings[known].fraction;
-      return ascending ? fraction : 1.0 - fraction;
+      ++known;
     }
-    return this->Views ? exactCrossing(*this->Views, a, b, this->BackgroundVotes) : 0.5;
+    if (known != end && known->edge == key)
+    {
+      return inside < outside ? known->fraction : 1.0 - known->fraction;
+    }
+    return this->Views ? exactCrossing(*this->Views, fromMorton(inside), fromMorton(outside), this->BackgroundVotes) : 0.5;
   }
 
   const SurfaceCrossings& Crossings;
@@ -150,7 +191,10 @@ void labelInside(LatticeLabels& labels, const std::vector<std::uint64_t>& points
   {
     return;
   }
-  labels.widen(extendedShell(labels.shell(), points, execution));
+  if (!holdsAround(labels.shell(), points))
+  {
+    labels.widen(extendedShell(labels.shell(), points, execution));
+  }
   for (const std::uint64_t point : points)
   {
     labels.setInside(std::size_t(labels.shell().find(point)));
@@ -218,33 +262,46 @@ struct ThinParts
   }
 };
 
+/** Labels of the corners of a shell, most of which are of the labels' own. */
+std::vector<std::uint8_t> labelsOf(const LatticeLabels& labels, const CornerShell& shell, Execution& execution)
+{
+  std::vector<std::uint8_t> inside(shell.corners.size());
+  execution.forRanges(inside.size(), 1024,
+    [&](std::size_t first, std::size_t last)
+    {
+      const auto& own = labels.shell().corners;
+      auto at = std::lower_bound(own.begin(), own.end(), shell.corners[first]);
+      for (std::size_t c = first; c < last; ++c)
+      {
+        while (at != own.end() && *at < shell.corners[c])
+        {
+          ++at;
+        }
+        const LatticePoint p = fromMorton(shell.corners[c]);
+        inside[c] = at != own.end() && *at == shell.corners[c]
+          ? labels.inside()[std::size_t(at - own.begin())] && !labels.octree().lattice.onBorder(p)
+          : labels.insideAt(p);
+      }
+    });
+  return inside;
+}
+
 /** Contour the labels, place the points, and round the thin parts. */
 void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const CoveringResult& covering, const CrossingPlacer& place,
   const std::vector<std::uint64_t>& added, const LatticeViews* views, const LocalHullOptions& options,
   LocalHullSurface& surface, Execution& execution)
 {
   const Lattice& lattice = labels.octree().lattice;
-  const CornerShell shell = extendedShell(labels.shell(), added, execution);
-  std::vector<std::uint8_t> inside(shell.corners.size());
-  execution.forRanges(inside.size(), 1024,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t c = first; c < last; ++c)
-      {
-        inside[c] = labels.insideAt(fromMorton(shell.corners[c]));
-      }
-    });
+  std::optional<CornerShell> extended;
+  if (!holdsAround(labels.shell(), added))
+  {
+    extended = extendedShell(labels.shell(), added, execution);
+  }
+  const CornerShell& shell = extended ? *extended : labels.shell();
+  const std::vector<std::uint8_t> inside = labelsOf(labels, shell, execution);
   execution.checkpoint(0.2);
   const LatticeSurface contoured = contour(shell, inside, execution);
-  std::vector<double> fractions(contoured.edges.size());
-  execution.forRanges(fractions.size(), 256,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t e = first; e < last; ++e)
-      {
-        fractions[e] = place(shell.corners[contoured.edges[e].inside], shell.corners[contoured.edges[e].outside]);
-      }
-    });
+  const std::vector<double> fractions = place.fractions(shell, contoured, execution);
   execution.checkpoint(0.4);
   surface.mesh = placePoints(lattice, shell, contoured, fractions, options.singlePrecision);
   Phase separating(execution, 0.4, 0.5);

@@ -30,7 +30,13 @@ Octree::Location OctantCursor::locate(const LatticePoint& cell)
   {
     return {};
   }
-  const std::uint64_t leaf = mortonCode(cell), differing = leaf ^ this->Leaf;
+  return this->locate(mortonCode(cell));
+}
+
+Octree::Location OctantCursor::locate(std::uint64_t leaf)
+{
+  const Octree& octree = *this->Source;
+  const std::uint64_t differing = leaf ^ this->Leaf;
   const int depth = octree.lattice.depth;
   const int common = differing == 0 ? depth : depth - 1 - highestBit(differing) / 3;
   this->Leaf = leaf;

@@ -132,6 +132,8 @@ public:
   }
 
   Octree::Location locate(const LatticePoint& cell);
+  /** The same by the Morton code of a cell of the lattice, of an octree that has octants. */
+  Octree::Location locate(std::uint64_t leaf);
 
 private:
   const Octree* Source;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 namespace silhouette
 {
@@ -142,9 +143,25 @@ LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const Prepared
 
 } // namespace
 
+bool holdsAround(const CornerShell& shell, const std::vector<std::uint64_t>& points)
+{
+  return std::all_of(points.begin(), points.end(),
+    [&](std::uint64_t point)
+    {
+      bool holds = true;
+      for (int n = 0; n < 8 && holds; ++n)
+      {
+        const LatticePoint p = fromMorton(point), o = cornerOffset(n);
+        holds = shell.findCell({ p.i - o.i, p.j - o.j, p.k - o.k }) >= 0;
+      }
+      return holds;
+    });
+}
+
 CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
 {
   std::vector<std::uint64_t> cells = shell.cells;
+  const bool isInOrder = std::is_sorted(cells.begin(), cells.end(), std::less_equal<std::uint64_t>());
   for (const std::uint64_t point : points)
   {
     const LatticePoint p = fromMorton(point);
@@ -154,7 +171,17 @@ CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint6
       cells.push_back(mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k }));
     }
   }
-  sortUnique(cells);
+  if (isInOrder)
+  {
+    const auto more = cells.begin() + std::ptrdiff_t(shell.cells.size());
+    std::sort(more, cells.end());
+    std::inplace_merge(cells.begin(), more, cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  }
+  else
+  {
+    sortUnique(cells);
+  }
   return makeCornerShell(std::move(cells), execution);
 }
 
@@ -171,6 +198,7 @@ CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, con
       capture.repairedPixels += repair.blobs[view] + repair.speckles[view];
     }
     capture.repaired = std::move(repair.views);
+    capture.votes = std::move(repair.votes);
   }
   if (capture.repaired)
   {
@@ -194,6 +222,10 @@ LatticeLabels correctedLabels(const Octree& octree, const CornerShell& shell, co
   const PreparedViews& used = capture.repaired ? *capture.repaired : views;
   if (!capture.recarved && !capture.correction.field)
   {
+    if (points.empty() && capture.votes.size() == shell.corners.size())
+    {
+      return LatticeLabels(octree, shell, capture.votes);
+    }
     return makeLabels(octree, points.empty() ? shell : extendedShell(shell, points, execution), views, capture, execution);
   }
   CornerShell wide = shell;

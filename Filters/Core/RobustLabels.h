@@ -21,6 +21,7 @@ struct CorrectedCapture
   std::optional<Mesh> surface;           ///< its surface
   FieldCorrection correction;
   std::uint64_t repairedPixels = 0;
+  std::vector<std::uint16_t> votes; ///< of the shell's corners, where the repair counted them and found nothing to repair
 };
 
 /** Repair and correct. `shell` is that of the octree's intersection octants. */
@@ -34,6 +35,9 @@ CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, con
  */
 LatticeLabels correctedLabels(const Octree& octree, const CornerShell& shell, const std::vector<std::uint64_t>& points,
   const PreparedViews& views, const CorrectedCapture& capture, Execution& execution);
+
+/** Does the shell hold the eight cells around each of the given points? */
+bool holdsAround(const CornerShell& shell, const std::vector<std::uint64_t>& points);
 
 /** The shell with the eight cells around each of the given points, none of which is on the border. */
 CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SilhouetteRepair.h"
 
-#include "CornerVotes.h"
+#include "LatticeLabels.h"
+#include "RadixSort.h"
 #include "SilhouetteDissent.h"
 #include "SilhouetteSpeckles.h"
 #include "UnionFind.h"
@@ -67,16 +68,15 @@ void appendRejected(const LatticeViews& views, const std::vector<std::uint64_t>&
   }
 }
 
-/** The shell's corners that one view may alone reject: all where the octree was carved from other views. */
-std::vector<std::uint64_t> onceDisputed(
-  const Octree& octree, const LatticeViews& views, const CornerShell& shell, Execution& execution)
+/** The shell's corners that one view may alone reject: all where the octree was carved from other views; else `votes` are found as well. */
+std::vector<std::uint64_t> onceDisputed(const Octree& octree, const LatticeViews& views, const CornerShell& shell,
+                                        std::vector<std::uint16_t>& votes, Execution& execution)
 {
   if (octree.fingerprint != views.prepared().fingerprint())
   {
     return shell.corners;
   }
-  Unannounced voting(execution);
-  const auto votes = cornerVotes(shell, CellViews(octree, shell, views, voting), views, voting);
+  votes = shellVotes(octree, shell, views, execution);
   std::vector<std::uint64_t> corners;
   for (std::size_t c = 0; c < votes.size(); ++c)
   {
@@ -99,8 +99,8 @@ void sortUnique(std::vector<std::uint64_t>& codes)
  * view, then by code. Breadth-first: a neighbour of one wave belongs to it, to the one before or to the next,
  * so that two waves are all that need be remembered.
  */
-std::vector<Rejected> findRejected(
-  const Octree& octree, const LatticeViews& views, const CornerShell& shell, Execution& execution)
+std::vector<Rejected> findRejected(const Octree& octree, const LatticeViews& views, const CornerShell& shell,
+                                   std::vector<std::uint16_t>& votes, Execution& execution)
 {
   const std::int32_t n = views.lattice().cells();
   std::vector<Rejected> rejected;
@@ -111,7 +111,7 @@ std::vector<Rejected> findRejected(
     execution.checkpoint(0.0);
     if (isFirst)
     {
-      appendRejected(views, onceDisputed(octree, views, shell, execution), rejected, execution);
+      appendRejected(views, onceDisputed(octree, views, shell, votes, execution), rejected, execution);
       isFirst = false;
     }
     else
@@ -133,7 +133,8 @@ std::vector<Rejected> findRejected(
         }
       }
     }
-    sortUnique(next);
+    radixSort(next, 3 * (views.lattice().depth + 1), [](std::uint64_t code) { return code; });
+    next.erase(std::unique(next.begin(), next.end()), next.end());
     for (const auto* wave : {&before, &now})
     {
       fresh.clear();
@@ -260,9 +261,9 @@ std::vector<std::vector<std::uint64_t>> longAlongTheView(const LatticeViews& vie
 std::vector<std::vector<std::uint64_t>> findBlobs(const Octree& octree, const LatticeViews& views, const CornerShell& shell,
                                                   const SurvivorBox& box,
                                                   const SilhouetteRepairOptions& options,
-                                                  Execution& execution)
+                                                  std::vector<std::uint16_t>& votes, Execution& execution)
 {
-  std::vector<Rejected> corners = findRejected(octree, views, shell, execution);
+  std::vector<Rejected> corners = findRejected(octree, views, shell, votes, execution);
   std::vector<std::uint8_t> deep(corners.size(), 0);
   const double depth = std::max(options.blobDepth, FewViewsDepth / (double(views.size()) * views.size()));
   execution.forRanges(corners.size(), 1024,
@@ -358,10 +359,11 @@ std::uint64_t fillBlobs(const LatticeViews& fine, int halvings, int i,
 /** The views with their blobs filled, or nothing where there are none; adds to `filled` by view. */
 std::optional<PreparedViews> withoutBlobs(const Octree& octree, const LatticeViews& lattice, const CornerShell& shell,
                                           const SurvivorBox& box, const SilhouetteRepairOptions& options,
-                                          std::vector<std::uint64_t>& filled, Execution& execution)
+                                          std::vector<std::uint64_t>& filled, std::vector<std::uint16_t>& votes,
+                                          Execution& execution)
 {
   const PreparedViews& views = lattice.prepared();
-  const auto blobs = findBlobs(octree, lattice, shell, box, options, execution);
+  const auto blobs = findBlobs(octree, lattice, shell, box, options, votes, execution);
   if (std::all_of(blobs.begin(), blobs.end(), [](const auto& corners) { return corners.empty(); }))
   {
     return std::nullopt;
@@ -413,12 +415,13 @@ SilhouetteRepair repairSilhouettes(const Octree& octree, const CornerShell& shel
     Phase phase(execution, (round + 1.0) / (MostRounds + 1), (round + 2.0) / (MostRounds + 1));
     phase.checkpoint(0.0);
     const LatticeViews now(result.views ? *result.views : views, octree.lattice);
-    auto repaired = withoutBlobs(octree, now, shell, box, options, result.blobs, phase);
+    auto repaired = withoutBlobs(octree, now, shell, box, options, result.blobs, result.votes, phase);
     if (!repaired)
     {
       break;
     }
     result.views = std::move(repaired);
+    result.votes.clear();
   }
   execution.checkpoint(1.0);
   return result;

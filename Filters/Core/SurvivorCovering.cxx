@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurvivorCovering.h"
 
+#include "LabelCache.h"
 #include "LatticeRegions.h"
 #include "ShellPaths.h"
 #include "SimplePoint.h"
@@ -23,12 +24,14 @@ enum class Effect : int
   Otherwise ///< tunnels or cavities may come or go
 };
 
+constexpr std::uint32_t None = 0xffffffffu;
+
 struct Candidate
 {
   Effect effect = Effect::Otherwise;
   float support = -1e30f;
   int covers = 0;
-  std::uint32_t corner = 0xffffffffu;
+  std::uint32_t corner = None;
 
   /** Smaller is better. */
   std::tuple<int, float, int, std::uint32_t> rank() const
@@ -42,6 +45,7 @@ class Covering
 public:
   Covering(LatticeLabels& labels, int loop, const CornerDepth* depth)
     : Labels(labels)
+    , Cache(labels)
     , Loop(loop)
     , Depth(depth)
     , Known(depth ? labels.shell().corners.size() : 0, Unknown)
@@ -101,7 +105,7 @@ private:
     Neighbourhood labels;
     for (int n = 0; n < 27; ++n)
     {
-      labels[n] = n != 13 && this->Labels.insideAt(neighbourOf(p, n));
+      labels[n] = n != 13 && this->Cache.insideAt(neighbourOf(p, n));
     }
     const auto numbers = topologicalNumbers(labels);
     if (isSimple(numbers))
@@ -135,36 +139,55 @@ private:
     return int(roots.size()) == numbers.inside && std::adjacent_find(roots.begin(), roots.end()) == roots.end();
   }
 
-  Candidate consider(std::uint32_t corner)
+  bool onBorder(std::uint32_t corner) const
   {
-    const LatticePoint p = fromMorton(this->shell().corners[corner]);
-    Candidate candidate;
-    if (this->Labels.octree().lattice.onBorder(p))
-    {
-      return candidate;
-    }
+    return this->Labels.octree().lattice.onBorder(fromMorton(this->shell().corners[corner]));
+  }
+
+  /** A corner that is not on the border. */
+  Candidate consider(std::uint32_t corner, Effect effect)
+  {
     std::array<std::uint32_t, 8> cells;
-    const int count = this->Labels.cellsAround(p, cells);
+    const int count = this->Labels.cellsAround(fromMorton(this->shell().corners[corner]), cells);
+    Candidate candidate;
     candidate.corner = corner;
     candidate.support = this->support(corner);
-    candidate.effect = this->effectOf(p);
+    candidate.effect = effect;
     candidate.covers = int(
       std::count_if(cells.begin(), cells.begin() + count, [&](std::uint32_t cell) { return !this->covered(cell); }));
     return candidate;
   }
 
-  /** The best of the given corners that is not inside yet; corner 0xffffffff where there is none. */
-  template <typename Corners>
-  Candidate best(const Corners& corners)
+  /**
+   * The best of a cell's corners that is not inside yet; corner None where there is none or its effect is beyond `most`. Support, which takes
+   * longest, is asked for only among equals.
+   */
+  Candidate best(std::uint32_t cell, Effect most = Effect::Otherwise)
   {
-    Candidate best;
-    for (const std::uint32_t corner : corners)
+    std::array<std::uint32_t, 8> equals;
+    std::size_t count = 0;
+    Effect least = most;
+    for (const std::uint32_t corner : this->shell().cellCorners[cell])
     {
-      if (!this->inside(corner))
+      if (this->inside(corner) || this->onBorder(corner))
       {
-        const Candidate candidate = this->consider(corner);
-        best = candidate.rank() < best.rank() ? candidate : best;
+        continue;
       }
+      const Effect effect = this->effectOf(fromMorton(this->shell().corners[corner]));
+      if (effect <= least)
+      {
+        count = effect < least ? 0 : count;
+        least = effect;
+        equals[count++] = corner;
+      }
+    }
+    Candidate best;
+    best.effect = least;
+    best.corner = count == 1 ? equals[0] : best.corner;
+    for (std::size_t n = 0; count > 1 && n < count; ++n)
+    {
+      const Candidate candidate = this->consider(equals[n], least);
+      best = candidate.rank() < best.rank() ? candidate : best;
     }
     return best;
   }
@@ -174,6 +197,7 @@ private:
     const LatticePoint p = fromMorton(this->shell().corners[corner]);
     this->Result.mayEnclose = this->Result.mayEnclose || this->effectOf(p) == Effect::Otherwise;
     this->Labels.setInside(corner);
+    this->Cache.forget(this->shell().corners[corner]);
     this->Result.coveringCorners.push_back(corner);
     std::array<std::uint32_t, 8> cells;
     const int count = this->Labels.cellsAround(p, cells);
@@ -229,8 +253,8 @@ private:
       {
         continue;
       }
-      const Candidate candidate = this->best(this->shell().cellCorners[cell]);
-      if (!growing || candidate.effect == Effect::Nothing || candidate.effect == Effect::Joins)
+      const Candidate candidate = this->best(cell, growing ? Effect::Joins : Effect::Otherwise);
+      if (!growing || candidate.corner != None)
       {
         this->add(candidate.corner);
         this->revisit(candidate.corner, list);
@@ -238,17 +262,20 @@ private:
     }
   }
 
-  /** The inside corners of a cell belong to one component; two that do not are opposite ends of its diagonal. */
+  /** The inside corners of a cell belong to one component, unless there are two, opposite ends of its diagonal. */
   void joinWithin(std::uint32_t cell)
   {
     const auto& corners = this->shell().cellCorners[cell];
-    for (int c = 0; c < 4; ++c)
+    std::array<int, 8> inside;
+    int count = 0;
+    for (int c = 0; c < 8 && count < 3; ++c)
     {
-      const std::uint32_t a = corners[c], b = corners[7 - c];
-      if (this->inside(a) && this->inside(b) && this->component(a) != this->component(b))
-      {
-        this->add(this->best(corners).corner);
-      }
+      inside[count] = c;
+      count += this->inside(corners[c]);
+    }
+    if (count == 2 && inside[0] + inside[1] == 7 && this->component(corners[inside[0]]) != this->component(corners[inside[1]]))
+    {
+      this->add(this->best(cell).corner);
     }
   }
 
@@ -277,7 +304,7 @@ private:
   /** Are the cells around a corner in more than one component? */
   bool parts(const std::array<std::uint32_t, 8>& cells, int count)
   {
-    std::uint32_t first = 0xffffffffu;
+    std::uint32_t first = None;
     for (int n = 0; n < count; ++n)
     {
       for (const std::uint32_t corner : this->shell().cellCorners[cells[n]])
@@ -285,7 +312,7 @@ private:
         if (this->inside(corner))
         {
           const std::uint32_t root = this->component(corner);
-          first = first == 0xffffffffu ? root : first;
+          first = first == None ? root : first;
           if (root != first)
           {
             return true;
@@ -296,26 +323,40 @@ private:
     return false;
   }
 
+  /** The component of each surviving cell's inside corners, which have one now; nothing where all have the same. */
+  std::vector<std::uint32_t> componentsOfCells()
+  {
+    std::vector<std::uint32_t> components(this->shell().cells.size(), None);
+    std::uint32_t first = None;
+    bool several = false;
+    for (std::uint32_t cell = 0; cell < components.size(); ++cell)
+    {
+      const auto& corners = this->shell().cellCorners[cell];
+      const auto corner = this->Labels.isSurvivor(cell)
+        ? std::find_if(corners.begin(), corners.end(), [&](std::uint32_t c) { return this->inside(c); })
+        : corners.end();
+      if (corner != corners.end())
+      {
+        components[cell] = this->component(*corner);
+        first = first == None ? components[cell] : first;
+        several = several || components[cell] != first;
+      }
+    }
+    return several ? components : std::vector<std::uint32_t>();
+  }
+
   /** Corners outside whose cells, the surviving ones, are in more than one component; ascending. */
   std::vector<std::uint32_t> cornersBetweenComponents()
   {
-    constexpr std::uint32_t none = 0xffffffffu, several = 0xfffffffeu;
-    std::vector<std::uint32_t> seen(this->shell().corners.size(), none);
-    const auto meet = [&](std::uint32_t a, std::uint32_t b) { return a == none || a == b ? b : b == none ? a : several; };
-    for (std::size_t cell = 0; cell < this->shell().cells.size(); ++cell)
+    constexpr std::uint32_t several = None - 1;
+    const std::vector<std::uint32_t> components = this->componentsOfCells();
+    std::vector<std::uint32_t> seen(components.empty() ? 0 : this->shell().corners.size(), None);
+    for (std::size_t cell = 0; cell < components.size(); ++cell)
     {
-      if (this->Labels.isSurvivor(cell))
+      for (const std::uint32_t corner : this->shell().cellCorners[cell])
       {
-        const auto& corners = this->shell().cellCorners[cell];
-        std::uint32_t own = none;
-        for (const std::uint32_t corner : corners)
-        {
-          own = this->inside(corner) ? meet(own, this->component(corner)) : own;
-        }
-        for (const std::uint32_t corner : corners)
-        {
-          seen[corner] = meet(seen[corner], own);
-        }
+        const std::uint32_t before = seen[corner], own = components[cell];
+        seen[corner] = before == None || before == own ? own : own == None ? before : several;
       }
     }
     std::vector<std::uint32_t> between;
@@ -334,9 +375,9 @@ private:
     std::vector<Candidate> apart;
     for (const std::uint32_t corner : this->cornersBetweenComponents())
     {
-      if (!this->Labels.octree().lattice.onBorder(fromMorton(this->shell().corners[corner])))
+      if (!this->onBorder(corner))
       {
-        apart.push_back(this->consider(corner));
+        apart.push_back(this->consider(corner, this->effectOf(fromMorton(this->shell().corners[corner]))));
       }
     }
     std::sort(apart.begin(), apart.end(), [](const Candidate& a, const Candidate& b) { return a.rank() < b.rank(); });
@@ -352,7 +393,7 @@ private:
     }
   }
 
-  /** An inside corner of the survivors around a lattice point, or 0xffffffff. */
+  /** An inside corner of the survivors around a lattice point, or None. */
   std::uint32_t insideNear(std::uint64_t point) const
   {
     std::array<std::uint32_t, 8> cells;
@@ -367,14 +408,14 @@ private:
         }
       }
     }
-    return 0xffffffffu;
+    return None;
   }
 
   /** Corrected labels may have joined already what the survivors leave apart: a bridge would make a tunnel there. */
   bool isNeeded(const Bridge& bridge, ShellPaths& paths)
   {
     const std::uint32_t from = this->insideNear(bridge.front()), to = this->insideNear(bridge.back());
-    return from == 0xffffffffu || to == 0xffffffffu || this->component(from) != this->component(to) ||
+    return from == None || to == None || this->component(from) != this->component(to) ||
       !paths.meet(from, to, this->Loop);
   }
 
@@ -402,6 +443,7 @@ private:
   static constexpr float Unknown = 1.0f; ///< no depth
 
   LatticeLabels& Labels;
+  LabelCache Cache;
   int Loop;
   const CornerDepth* Depth;
   std::vector<float> Known; ///< by Depth, of each corner of the shell that it was asked for

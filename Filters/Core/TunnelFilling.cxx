@@ -2,12 +2,14 @@
 #include "TunnelFilling.h"
 
 #include "Error.h"
-#include "LatticeRegions.h"
+#include "NarrowOutside.h"
 #include "SimplePoint.h"
+#include "WideOutside.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <optional>
 #include <queue>
 #include <tuple>
 
@@ -17,7 +19,6 @@ namespace
 {
 
 constexpr int GreatestWidth = 8;
-constexpr int Side = BrickField::BrickSize;
 
 enum Part : std::uint8_t
 {
@@ -44,184 +45,40 @@ void check(const TunnelFillingOptions& options)
   }
 }
 
-/** Cells of the shell with corners of both labels. */
-std::vector<std::uint64_t> mixedCells(const LatticeLabels& labels)
-{
-  std::vector<std::uint64_t> cells;
-  for (std::size_t cell = 0; cell < labels.shell().cells.size(); ++cell)
-  {
-    int inside = 0;
-    for (const std::uint32_t corner : labels.shell().cellCorners[cell])
-    {
-      inside += labels.inside()[corner];
-    }
-    if (inside > 0 && inside < 8)
-    {
-      cells.push_back(labels.shell().cells[cell]);
-    }
-  }
-  return cells;
-}
-
-/** A bit for each point of a brick: i + 8 j of the word k. */
-using Planes = std::array<std::uint64_t, Side>;
-
-/** The points of a brick, in Morton order, that are not of one part. */
-Planes planesOf(const std::uint8_t* parts, Part part)
-{
-  Planes planes{};
-  for (std::uint64_t n = 0; n < BrickField::BrickPoints; ++n)
-  {
-    const LatticePoint p = fromMorton(n);
-    planes[p.k] |= std::uint64_t(parts[n] != part) << (p.i + Side * p.j);
-  }
-  return planes;
-}
-
-/** The brick that begins `step` points, 0 to 8, ahead of `low` along an axis; `high` is the brick after it. */
-Planes shifted(const Planes& low, const Planes& high, int axis, int step)
-{
-  if (step == 0 || step == Side)
-  {
-    return step == 0 ? low : high;
-  }
-  Planes result;
-  const std::uint64_t kept = 0x0101010101010101ULL * (0xffu >> step); // of each row, what comes from `low`
-  for (int k = 0; k < Side; ++k)
-  {
-    if (axis == 0)
-    {
-      result[k] = (low[k] >> step & kept) | (high[k] << (Side - step) & ~kept);
-    }
-    else if (axis == 1)
-    {
-      result[k] = low[k] >> Side * step | high[k] << Side * (Side - step);
-    }
-    else
-    {
-      result[k] = k + step < Side ? low[k + step] : high[k + step - Side];
-    }
-  }
-  return result;
-}
-
-/** Parts of the lattice points in bricks around the surface. */
+/** Parts of the lattice points: narrow ones become taken, all others stay. */
 class Parts
 {
 public:
   Parts(const LatticeLabels& labels, int width, Execution& execution)
-    : Labels(labels)
-    , Bricks(labels.octree().lattice, mixedCells(labels), 2 * width)
-    , Values(Bricks.size(), Wide)
-    , Cursor(Bricks)
+    : Outside(labels, width, execution)
+    , Values(Outside.points().size(), Narrow)
   {
-    this->label(execution);
-    execution.checkpoint(0.4);
-    this->openByCubes(width, execution);
-    execution.checkpoint(0.8);
   }
 
+  const NarrowOutside& outside() const { return this->Outside; }
+  /** Of the narrow points and those taken, which are numbered in lattice order. */
   std::size_t size() const { return this->Values.size(); }
-  std::uint64_t code(std::size_t n) const { return this->Bricks.code(n); }
+  std::uint64_t code(std::size_t n) const { return this->Outside.points()[n]; }
   Part operator[](std::size_t n) const { return Part(this->Values[n]); }
   void take(std::size_t n) { this->Values[n] = Taken; }
-  std::ptrdiff_t find(const LatticePoint& p)
-  {
-    return std::min({ p.i, p.j, p.k }) < 0 ? -1 : this->Cursor.find(mortonCode(p));
-  }
+  std::ptrdiff_t find(const LatticePoint& p) const { return this->Outside.find(p); }
   /** The part of any lattice point. */
-  Part at(const LatticePoint& p)
+  Part at(const LatticePoint& p) const
   {
-    const std::ptrdiff_t n = this->find(p);
-    return n >= 0 ? (*this)[n] : this->Labels.insideAt(p) ? Solid : Wide;
+    switch (this->Outside.at(p))
+    {
+      case NarrowOutside::Label::Solid:
+        return Solid;
+      case NarrowOutside::Label::Wide:
+        return Wide;
+      default:
+        return (*this)[std::size_t(this->find(p))];
+    }
   }
 
 private:
-  void label(Execution& execution)
-  {
-    execution.forRanges(this->Bricks.bricks().size(), 8,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t brick = first; brick < last; ++brick)
-        {
-          std::uint8_t* const values = &this->Values[brick * BrickField::BrickPoints];
-          this->Labels.insideOf(this->Bricks.code(brick * BrickField::BrickPoints), BrickField::BrickPoints, values);
-          std::transform(values, values + BrickField::BrickPoints, values,
-            [](std::uint8_t inside) { return std::uint8_t(inside != 0 ? Solid : Wide); });
-        }
-      });
-  }
-
-  /**
-   * Where no cube of outside points fits, the outside is narrow. Beyond the bricks everything is taken for
-   * outside.
-   */
-  void openByCubes(int width, Execution& execution)
-  {
-    const std::size_t count = this->Bricks.bricks().size();
-    std::vector<Planes> fits(count);
-    execution.forRanges(count, 64,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t brick = first; brick < last; ++brick)
-        {
-          fits[brick] = planesOf(&this->Values[brick * BrickField::BrickPoints], Solid);
-        }
-      });
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->combineAlong(axis, width, true, fits, execution); // from here on, a cube fits
-    }
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->combineAlong(axis, width, false, fits, execution); // a cube that fits holds this point
-    }
-    execution.forRanges(count, 64,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t n = first * BrickField::BrickPoints; n < last * BrickField::BrickPoints; ++n)
-        {
-          const LatticePoint p = fromMorton(n % BrickField::BrickPoints);
-          const bool wide = fits[n / BrickField::BrickPoints][p.k] >> (p.i + Side * p.j) & 1;
-          this->Values[n] = this->Values[n] == Solid ? Solid : wide ? Wide : Narrow;
-        }
-      });
-  }
-
-  /** All of the `width` + 1 points ahead, or any of those behind. */
-  void combineAlong(int axis, int width, bool all, std::vector<Planes>& values, Execution& execution) const
-  {
-    std::vector<Planes> result(values.size());
-    execution.forRanges(values.size(), 64,
-      [&](std::size_t first, std::size_t last)
-      {
-        Planes outside;
-        outside.fill(~std::uint64_t(0));
-        for (std::size_t brick = first; brick < last; ++brick)
-        {
-          LatticePoint q = fromMorton(this->Bricks.bricks()[brick]);
-          (axis == 0 ? q.i : axis == 1 ? q.j : q.k) += all ? 1 : -1;
-          const std::ptrdiff_t beside = std::min({ q.i, q.j, q.k }) < 0 ? -1 : this->Bricks.findBrick(mortonCode(q));
-          const Planes& other = beside < 0 ? outside : values[std::size_t(beside)];
-          result[brick] = values[brick];
-          for (int step = 1; step <= width; ++step)
-          {
-            const Planes moved = all ? shifted(values[brick], other, axis, step)
-                                     : shifted(other, values[brick], axis, Side - step);
-            for (int k = 0; k < Side; ++k)
-            {
-              result[brick][k] = all ? result[brick][k] & moved[k] : result[brick][k] | moved[k];
-            }
-          }
-        }
-      });
-    values.swap(result);
-  }
-
-  const LatticeLabels& Labels;
-  BrickField Bricks;
+  NarrowOutside Outside;
   std::vector<std::uint8_t> Values;
-  BrickCursor Cursor;
 };
 
 class Growth
@@ -292,51 +149,34 @@ public:
   }
 
 private:
-  /**
-   * Points of the wide outside are joined along lattice edges and through the background octants around them.
-   * This is done when first it is asked for, which on most objects is never.
-   */
+  /** This is done when first it is asked for, which on most objects is never. */
   void joinWide()
   {
-    const Octree& octree = this->Labels.octree();
-    LatticeRegions regions = connectWideOutside(this->Labels, this->Width);
-    this->Sets = UnionFind(this->Outside.size() + regions.sets.size());
-    const std::uint32_t octants = std::uint32_t(this->Outside.size());
-    OctantCursor cursor(octree);
-    for (std::uint32_t n = 0; n < octants; ++n)
+    this->Sets.emplace(this->Labels, this->Outside.outside(), this->Width);
+    for (std::size_t n = 0; n < this->Outside.size(); ++n)
     {
-      if (!isWide(this->Outside[n]))
-      {
-        continue;
-      }
-      const LatticePoint p = fromMorton(this->Outside.code(n));
-      for (const int a : { 14, 16, 22 })
-      {
-        const std::ptrdiff_t other = this->Outside.find(neighbourOf(p, a));
-        if (other >= 0 && isWide(this->Outside[other]))
-        {
-          this->Sets.unite(n, std::uint32_t(other));
-        }
-      }
       if (this->Outside[n] == Taken)
       {
-        continue;
-      }
-      if (!octree.lattice.hasCell(p) || octree.lattice.onBorder(p))
-      {
-        this->Sets.unite(n, octants + regions.beyond);
-        continue;
-      }
-      const auto location = cursor.locate(p);
-      if (location.generation >= 0 && location.state == OctantState::Background &&
-        octree.lattice.cells() >> location.generation >= this->Width)
-      {
-        this->Sets.unite(n, octants + regions.octant(location.generation, location.index));
+        this->joinTaken(n);
       }
     }
-    for (std::uint32_t r = 0; r < regions.sets.size(); ++r)
+  }
+
+  void joinTaken(std::size_t n)
+  {
+    const LatticePoint p = fromMorton(this->Outside.code(n));
+    for (const int a : EdgeNeighbours)
     {
-      this->Sets.unite(octants + r, octants + regions.sets.find(r));
+      const LatticePoint q = neighbourOf(p, a);
+      const Part part = this->Outside.at(q);
+      if (part == Wide)
+      {
+        this->Sets->join(n, q);
+      }
+      else if (part == Taken)
+      {
+        this->Sets->join(n, std::size_t(this->Outside.find(q)));
+      }
     }
   }
 
@@ -347,6 +187,41 @@ private:
   }
 
   void push(std::size_t n) { this->Front.emplace(-this->support(n), -std::ptrdiff_t(n), n); }
+
+  /** Into how many parts the wide outside beside a point falls, if no way but through the points within two octants counts. */
+  int partsNearby(const LatticePoint& p) const
+  {
+    const int reach = std::min(this->Width, 2), side = 2 * reach + 1, count = side * side * side;
+    const auto pointAt = [&](int n) { return p + LatticePoint{ n % side - reach, n / side % side - reach, n / side / side - reach }; };
+    std::array<bool, 125> wide{};
+    UnionFind sets(std::size_t{ 125 });
+    for (int n = 0; n < count; ++n)
+    {
+      const LatticePoint q = pointAt(n);
+      const int cells = this->Labels.octree().lattice.cells();
+      const bool ofLattice = std::min({ q.i, q.j, q.k }) >= 0 && std::max({ q.i, q.j, q.k }) <= cells;
+      wide[std::size_t(n)] = ofLattice && !(q == p) && isWide(this->Outside.at(q));
+      const int steps[3] = { 1, side, side * side }, coordinates[3] = { n % side, n / side % side, n / side / side };
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        if (coordinates[axis] > 0 && wide[std::size_t(n)] && wide[std::size_t(n - steps[axis])])
+        {
+          sets.unite(std::uint32_t(n), std::uint32_t(n - steps[axis]));
+        }
+      }
+    }
+    std::vector<std::uint32_t> roots;
+    const int centre = count / 2;
+    for (const int step : { -1, 1, -side, side, -side * side, side * side })
+    {
+      if (wide[std::size_t(centre + step)])
+      {
+        roots.push_back(sets.find(std::uint32_t(centre + step)));
+      }
+    }
+    std::sort(roots.begin(), roots.end());
+    return int(std::unique(roots.begin(), roots.end()) - roots.begin());
+  }
 
   /** Does the outside touch the point, and with parts that are not connected otherwise? */
   bool mayTake(std::size_t n)
@@ -362,17 +237,25 @@ private:
     {
       return touching == 1;
     }
-    if (this->Sets.size() == 0)
+    if (this->partsNearby(p) < touching)
+    {
+      return false;
+    }
+    if (!this->Sets)
     {
       this->joinWide();
     }
     std::vector<std::uint32_t> roots;
     for (const int a : EdgeNeighbours)
     {
-      const std::ptrdiff_t other = this->Outside.find(neighbourOf(p, a));
-      if (other >= 0 && isWide(this->Outside[other]))
+      const LatticePoint q = neighbourOf(p, a);
+      const Part part = this->Outside.at(q);
+      const std::uint32_t root = part == Wide ? this->Sets->setOf(q)
+        : part == Taken                       ? this->Sets->setOf(std::size_t(this->Outside.find(q)))
+                                              : WideOutside::Nowhere;
+      if (root != WideOutside::Nowhere)
       {
-        roots.push_back(this->Sets.find(std::uint32_t(other)));
+        roots.push_back(root);
       }
     }
     std::sort(roots.begin(), roots.end());
@@ -390,25 +273,24 @@ private:
       {
         this->push(std::size_t(other));
       }
-      else if (this->Sets.size() > 0 && other >= 0 && isWide(this->Outside[other]) &&
-        std::find(EdgeNeighbours, EdgeNeighbours + 6, a) != EdgeNeighbours + 6)
-      {
-        this->Sets.unite(std::uint32_t(n), std::uint32_t(other));
-      }
+    }
+    if (this->Sets)
+    {
+      this->joinTaken(n);
     }
   }
 
   const LatticeLabels& Labels;
   Parts& Outside;
   int Width;
-  UnionFind Sets; ///< of the wide outside's points, then the octants; empty until it is asked for
+  std::optional<WideOutside> Sets; ///< what of the wide outside is connected; nothing until it is asked for
   std::vector<std::size_t> Remaining;
   /** Least support first, then the first in lattice order. */
   std::priority_queue<std::tuple<float, std::ptrdiff_t, std::size_t>> Front;
 };
 
 /** By how much the solid's Euler number rises where a wall is added to it: by 1 for each tunnel that it closes. */
-int eulerRise(const std::vector<std::size_t>& wall, Parts& parts)
+int eulerRise(const std::vector<std::size_t>& wall, const Parts& parts)
 {
   std::vector<std::uint64_t> added;
   int rise = 0;
@@ -430,7 +312,7 @@ int eulerRise(const std::vector<std::size_t>& wall, Parts& parts)
  * Octants along the outline of a wall: that of a rectangle with the two longest sides of its box, and the solid
  * around it.
  */
-double outline(const std::vector<std::size_t>& wall, Parts& parts)
+double outline(const std::vector<std::size_t>& wall, const Parts& parts)
 {
   LatticePoint low = fromMorton(parts.code(wall.front())), high = low;
   for (const std::size_t n : wall)
@@ -453,7 +335,8 @@ std::vector<std::uint64_t> tunnelWalls(const LatticeLabels& labels, const Tunnel
   {
     return {};
   }
-  Parts parts(labels, options.width, execution);
+  Phase looking(execution, 0.0, 0.8);
+  Parts parts(labels, options.width, looking);
   Growth growth(labels, parts, options.width);
   growth.run();
   const double longest = options.loop * labels.octree().lattice.cells();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LatticeLabels.h"
+#include "LabelCache.h"
 
 #include "CarvingTestCaptures.h"
 
@@ -105,24 +106,53 @@ TEST(LatticeLabels, OfManyPointsAtOnceAreThoseOfEach)
   const LatticeLabels byField(scene.octree, scene.shell, field);
   for (const LatticeLabels* labels : { &std::as_const(voted), &byField })
   {
-    for (const std::size_t count : { 1, 8, 64, 512 })
+    std::size_t inside = 0;
+    for (std::uint64_t block = 0; block <= mortonCode({ 33, 33, 33 }) / 64; ++block)
     {
-      std::size_t inside = 0;
-      std::vector<std::uint8_t> values(count);
-      for (std::uint64_t first = 0; first < mortonCode({ 33, 33, 33 }); first += count)
+      const std::uint64_t bits = labels->insideOfBlock(block);
+      for (std::uint64_t n = 0; n < 64; ++n)
       {
-        labels->insideOf(first, count, values.data());
-        for (std::size_t n = 0; n < count; ++n)
-        {
-          const LatticePoint p = fromMorton(first + n);
-          const bool ofLattice = std::max({ p.i, p.j, p.k }) <= labels->octree().lattice.cells();
-          EXPECT_EQ(values[n], ofLattice && labels->insideAt(p)) << p.i << " " << p.j << " " << p.k << " of " << count;
-          inside += values[n];
-        }
+        const LatticePoint p = fromMorton(64 * block + n);
+        const bool ofLattice = std::max({ p.i, p.j, p.k }) <= labels->octree().lattice.cells();
+        EXPECT_EQ(bits >> n & 1, std::uint64_t(ofLattice && labels->insideAt(p))) << p.i << " " << p.j << " " << p.k;
+        inside += bits >> n & 1;
       }
-      EXPECT_GT(inside, 1000u);
+    }
+    EXPECT_GT(inside, 1000u);
+  }
+}
+
+TEST(LatticeLabels, ByVotesThatAreKnownAreTheSame)
+{
+  Scene scene(2);
+  const LatticeLabels counted(scene.octree, scene.shell, scene.views, scene.execution);
+  const auto votes = shellVotes(scene.octree, scene.shell, LatticeViews(scene.views, scene.octree.lattice), scene.execution);
+  const LatticeLabels known(scene.octree, scene.shell, votes);
+  EXPECT_EQ(counted.inside(), known.inside());
+  EXPECT_EQ(counted.support(), known.support());
+}
+
+TEST(LatticeLabels, RememberedOnesFollowAChangeThatIsTold)
+{
+  Scene scene(1);
+  LatticeLabels labels(scene.octree, scene.shell, scene.views, scene.execution);
+  LabelCache cache(labels);
+  std::size_t changed = 0;
+  for (int round = 0; round < 2; ++round)
+  {
+    for (std::size_t c = 0; c < scene.shell.corners.size(); ++c)
+    {
+      const LatticePoint p = fromMorton(scene.shell.corners[c]);
+      EXPECT_EQ(cache.insideAt(p), labels.insideAt(p));
+      if (round == 0 && c % 3 == 0 && !labels.inside()[c] && !scene.octree.lattice.onBorder(p))
+      {
+        labels.setInside(c);
+        cache.forget(scene.shell.corners[c]);
+        ++changed;
+      }
     }
   }
+  EXPECT_GT(changed, 100u);
 }
 
 TEST(LatticeLabels, FilledOctantsAreInside)

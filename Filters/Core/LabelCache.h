@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Labels of lattice points for whoever asks about many near one another: the blocks of 4 x 4 x 4 points asked for last are remembered.
+ */
+#pragma once
+
+#include "LatticeLabels.h"
+
+#include <vector>
+
+namespace silhouette
+{
+
+/** Not for several threads at once. The labels have to outlive it, and whoever changes one has to say so. */
+class LabelCache
+{
+public:
+  explicit LabelCache(const LatticeLabels& labels)
+    : Labels(&labels)
+    , Remembered(Slots)
+  {
+  }
+
+  /** LatticeLabels::insideAt() of a point with coordinates of 0 and more. */
+  bool insideAt(const LatticePoint& p)
+  {
+    const std::uint64_t code = mortonCode(p);
+    Block& block = this->Remembered[(code >> 6) % Slots];
+    if (block.code != code >> 6)
+    {
+      block = { code >> 6, this->Labels->insideOfBlock(code >> 6) };
+    }
+    return (block.inside >> (code & 63) & 1) != 0;
+  }
+
+  /** The label of a point of this Morton code has changed. */
+  void forget(std::uint64_t point)
+  {
+    Block& block = this->Remembered[(point >> 6) % Slots];
+    block = block.code == point >> 6 ? Block() : block;
+  }
+
+private:
+  static constexpr std::size_t Slots = 4096;
+
+  struct Block
+  {
+    std::uint64_t code = ~std::uint64_t(0); ///< no block's
+    std::uint64_t inside = 0;
+  };
+
+  const LatticeLabels* Labels;
+  std::vector<Block> Remembered;
+};
+
+} // namespace silhouette

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "NarrowOutside.h"
+
+#include "Bits.h"
+#include "BlockBits.h"
+
+#include <algorithm>
+
+namespace silhouette
+{
+namespace
+{
+
+constexpr std::uint32_t Nowhere = 0xffffffffu;
+
+/** Blocks that hold cells with corners of both labels, ascending. */
+std::vector<std::uint64_t> mixedBlocks(const LatticeLabels& labels)
+{
+  const auto& shell = labels.shell();
+  std::vector<std::uint64_t> blocks;
+  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
+  {
+    const std::uint64_t block = shell.cells[cell] >> 6;
+    if (!blocks.empty() && blocks.back() == block)
+    {
+      continue;
+    }
+    const auto& corners = shell.cellCorners[cell];
+    const std::uint8_t first = labels.inside()[corners[0]];
+    if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return labels.inside()[c] != first; }))
+    {
+      blocks.push_back(block);
+    }
+  }
+  return blocks;
+}
+
+} // namespace
+
+NarrowOutside::NarrowOutside(const LatticeLabels& labels, int width, Execution& execution)
+  : Labels(&labels)
+  , Blocks(mixedBlocks(labels))
+{
+  this->addBlocks(width);
+  this->fill(execution);
+  execution.checkpoint(0.5);
+  this->openByCubes(width, execution);
+  execution.checkpoint(1.0);
+}
+
+/**
+ * All blocks with points within `width` octants of a cell with corners of both labels. From an outside point elsewhere no such cell is within a cube's
+ * reach: there it is wide.
+ */
+void NarrowOutside::addBlocks(int width)
+{
+  const int reach = 1 + width / BlockSide;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::size_t count = this->Blocks.size();
+    for (std::size_t b = 0; b < count; ++b)
+    {
+      for (const bool ahead : { true, false })
+      {
+        std::uint64_t block = this->Blocks[b];
+        for (int step = 0; step < reach && besideBlock(block, axis, ahead, block); ++step)
+        {
+          this->Blocks.push_back(block);
+        }
+      }
+    }
+    std::sort(this->Blocks.begin(), this->Blocks.end());
+    this->Blocks.erase(std::unique(this->Blocks.begin(), this->Blocks.end()), this->Blocks.end());
+  }
+}
+
+void NarrowOutside::fill(Execution& execution)
+{
+  this->Free.resize(this->Blocks.size());
+  execution.forRanges(this->Blocks.size(), 256,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t b = first; b < last; ++b)
+      {
+        this->Free[b] = ~this->Labels->insideOfBlock(this->Blocks[b]);
+      }
+    });
+}
+
+/** First whether a cube fits that begins in a point, then whether one holds it. What lies in no block is taken for outside. */
+void NarrowOutside::openByCubes(int width, Execution& execution)
+{
+  std::vector<std::uint64_t> bits = this->Free, combined(bits.size());
+  for (const bool ahead : { true, false })
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const std::vector<std::uint32_t> beside = this->blocksBeside(axis, ahead, execution);
+      for (int step = 0; step < width; ++step)
+      {
+        execution.forRanges(bits.size(), 4096,
+          [&](std::size_t first, std::size_t last)
+          {
+            for (std::size_t b = first; b < last; ++b)
+            {
+              const std::uint64_t beyond = beside[b] == Nowhere ? ~std::uint64_t(0) : bits[beside[b]];
+              combined[b] =
+                ahead ? bits[b] & fromAhead(bits[b], beyond, axis) : bits[b] | fromBehind(bits[b], beyond, axis);
+            }
+          });
+        bits.swap(combined);
+      }
+    }
+  }
+  this->findPoints(bits);
+}
+
+std::vector<std::uint32_t> NarrowOutside::blocksBeside(int axis, bool ahead, Execution& execution) const
+{
+  std::vector<std::uint32_t> beside(this->Blocks.size());
+  execution.forRanges(beside.size(), 1024,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t b = first; b < last; ++b)
+      {
+        std::uint64_t other = 0;
+        const bool exists = besideBlock(this->Blocks[b], axis, ahead, other);
+        const std::ptrdiff_t at = exists ? findBlock(this->Blocks, other) : -1;
+        beside[b] = at < 0 ? Nowhere : std::uint32_t(at);
+      }
+    });
+  return beside;
+}
+
+void NarrowOutside::findPoints(const std::vector<std::uint64_t>& opened)
+{
+  this->Narrow.resize(this->Blocks.size());
+  for (std::size_t b = 0; b < this->Blocks.size(); ++b)
+  {
+    this->Narrow[b] = this->Free[b] & ~opened[b];
+    for (std::uint64_t left = this->Narrow[b]; left != 0; left &= left - 1)
+    {
+      this->Points.push_back(64 * this->Blocks[b] + std::uint64_t(lowestBit(left)));
+    }
+  }
+}
+
+std::ptrdiff_t NarrowOutside::find(const LatticePoint& p) const
+{
+  return std::min({ p.i, p.j, p.k }) < 0 ? -1 : findBlock(this->Points, mortonCode(p));
+}
+
+NarrowOutside::Label NarrowOutside::at(const LatticePoint& p) const
+{
+  if (std::min({ p.i, p.j, p.k }) < 0)
+  {
+    return Label::Wide;
+  }
+  const std::uint64_t code = mortonCode(p);
+  const std::ptrdiff_t block = findBlock(this->Blocks, code >> 6);
+  if (block < 0)
+  {
+    return this->Labels->insideAt(p) ? Label::Solid : Label::Wide;
+  }
+  const auto has = [&](const std::vector<std::uint64_t>& bits) { return (bits[std::size_t(block)] >> (code & 63) & 1) != 0; };
+  return !has(this->Free) ? Label::Solid : has(this->Narrow) ? Label::Narrow : Label::Wide;
+}
+
+std::uint64_t NarrowOutside::wideOfBlock(std::uint64_t block) const
+{
+  const std::ptrdiff_t at = findBlock(this->Blocks, block);
+  return at < 0 ? ~this->Labels->insideOfBlock(block) : this->Free[std::size_t(at)] & ~this->Narrow[std::size_t(at)];
+}
+
+} // namespace silhouette

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Where the outside of a solid is narrow: no cube of outside points of a given width fits. Few points are.
+ */
+#pragma once
+
+#include "LatticeLabels.h"
+
+#include <vector>
+
+namespace silhouette
+{
+
+/** The outside around a solid, by words of bits for the blocks of 4 x 4 x 4 lattice points near its surface. */
+class NarrowOutside
+{
+public:
+  enum class Label : std::uint8_t
+  {
+    Solid,
+    Wide,  ///< outside, and a cube fits
+    Narrow ///< outside, and none does
+  };
+
+  /**
+   * `width`: octants, 1 or more, along an edge of the cubes. The labels have to outlive this, and their shell to hold each cell with corners of both
+   * labels. A cube that begins below the lattice is taken to fit, so that a point less than `width` from there is wide. Cost: linear in the lattice
+   * points within some `width` octants of the surface, a word for 64 of them.
+   */
+  NarrowOutside(const LatticeLabels& labels, int width, Execution& execution);
+
+  /** Morton codes of the narrow points, ascending. */
+  const std::vector<std::uint64_t>& points() const { return this->Points; }
+  /** Index of a narrow point, or -1. Its coordinates may lie outside the lattice. */
+  std::ptrdiff_t find(const LatticePoint& p) const;
+  /** Of any lattice point. */
+  Label at(const LatticePoint& p) const;
+  /** The wide points of any block of 4 x 4 x 4, the lowest bit the point of Morton code 64 `block`. */
+  std::uint64_t wideOfBlock(std::uint64_t block) const;
+
+private:
+  void addBlocks(int width);
+  void fill(Execution& execution);
+  void openByCubes(int width, Execution& execution);
+  std::vector<std::uint32_t> blocksBeside(int axis, bool ahead, Execution& execution) const;
+  void findPoints(const std::vector<std::uint64_t>& opened);
+
+  const LatticeLabels* Labels;
+  std::vector<std::uint64_t> Blocks; ///< Morton codes, ascending
+  std::vector<std::uint64_t> Free;   ///< of each, its outside points
+  std::vector<std::uint64_t> Narrow; ///< of these, the narrow ones
+  std::vector<std::uint64_t> Points;
+};
+
+} // namespace silhouette

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "WideOutside.h"
+
+#include "Bits.h"
+#include "BlockBits.h"
+#include "LatticeRegions.h"
+
+#include <algorithm>
+#include <array>
+
+namespace silhouette
+{
+namespace
+{
+
+constexpr int BrickSide = 8;
+
+void sortUnique(std::vector<std::uint64_t>& codes)
+{
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+}
+
+/** The bricks of 8 x 8 x 8 points with one within `margin` octants of any cell of one brick. */
+class BricksAround
+{
+public:
+  BricksAround(const Lattice& lattice, int margin)
+    : Margin(margin)
+    , Greatest(lattice.cells() / BrickSide)
+  {
+  }
+
+  void add(const LatticePoint& p)
+  {
+    const std::array<int, 6> asked{ this->low(p.i), this->low(p.j), this->low(p.k), this->high(p.i), this->high(p.j),
+      this->high(p.k) };
+    if (std::find(this->Asked.begin(), this->Asked.end(), asked) != this->Asked.end())
+    {
+      return;
+    }
+    this->Asked.push_back(asked);
+    for (int k = asked[2]; k <= asked[5]; ++k)
+    {
+      for (int j = asked[1]; j <= asked[4]; ++j)
+      {
+        for (int i = asked[0]; i <= asked[3]; ++i)
+        {
+          this->Bricks.push_back(mortonCode({ i, j, k }));
+        }
+      }
+    }
+  }
+
+  /** Hand on what has been found, and begin anew. */
+  void moveTo(std::vector<std::uint64_t>& bricks)
+  {
+    sortUnique(this->Bricks);
+    bricks.insert(bricks.end(), this->Bricks.begin(), this->Bricks.end());
+    this->Bricks.clear();
+    this->Asked.clear();
+  }
+
+private:
+  int low(int x) const { return std::max(x - this->Margin, 0) / BrickSide; }
+  int high(int x) const { return std::min((x + 1 + this->Margin) / BrickSide, this->Greatest); }
+
+  int Margin;
+  int Greatest;
+  std::vector<std::array<int, 6>> Asked;
+  std::vector<std::uint64_t> Bricks;
+};
+
+/** All blocks of the bricks with points within `margin` octants of the shell's cells with corners of both labels, ascending. */
+std::vector<std::uint64_t> blocksAround(const LatticeLabels& labels, int margin)
+{
+  const auto& shell = labels.shell();
+  std::vector<std::uint64_t> bricks;
+  BricksAround around(labels.octree().lattice, margin);
+  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
+  {
+    if (cell > 0 && shell.cells[cell] >> 9 != shell.cells[cell - 1] >> 9)
+    {
+      around.moveTo(bricks);
+    }
+    const auto& corners = shell.cellCorners[cell];
+    const std::uint8_t first = labels.inside()[corners[0]];
+    if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return labels.inside()[c] != first; }))
+    {
+      around.add(fromMorton(shell.cells[cell]));
+    }
+  }
+  around.moveTo(bricks);
+  sortUnique(bricks);
+  std::vector<std::uint64_t> blocks;
+  for (const std::uint64_t brick : bricks)
+  {
+    for (std::uint64_t n = 0; n < 8; ++n)
+    {
+      blocks.push_back(8 * brick + n);
+    }
+  }
+  return blocks;
+}
+
+/** Those of `points` that meet the lowest of them along lattice edges. */
+std::uint64_t partOfLowest(std::uint64_t points)
+{
+  std::uint64_t part = points & (0 - points);
+  for (std::uint64_t before = 0; before != part;)
+  {
+    before = part;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      part |= (fromAhead(part, 0, axis) | fromBehind(part, 0, axis)) & points;
+    }
+  }
+  return part;
+}
+
+} // namespace
+
+WideOutside::WideOutside(const LatticeLabels& labels, const NarrowOutside& narrow, int width)
+  : Blocks(blocksAround(labels, 2 * width))
+  , Before(std::uint32_t(narrow.points().size()))
+{
+  this->findParts(narrow);
+  this->joinOctants(labels, width);
+  this->joinBlocks();
+}
+
+void WideOutside::findParts(const NarrowOutside& narrow)
+{
+  this->FirstPart.push_back(0);
+  for (const std::uint64_t block : this->Blocks)
+  {
+    for (std::uint64_t left = narrow.wideOfBlock(block); left != 0;)
+    {
+      this->Parts.push_back(~left == 0 ? left : partOfLowest(left));
+      left &= ~this->Parts.back();
+    }
+    this->FirstPart.push_back(std::uint32_t(this->Parts.size()));
+  }
+}
+
+std::uint32_t WideOutside::partOf(const LatticePoint& p) const
+{
+  const std::uint64_t code = std::min({ p.i, p.j, p.k }) < 0 ? 0 : mortonCode(p);
+  const std::ptrdiff_t block = std::min({ p.i, p.j, p.k }) < 0 ? -1 : findBlock(this->Blocks, code >> 6);
+  for (std::uint32_t part = block < 0 ? 0 : this->FirstPart[std::size_t(block)];
+       block >= 0 && part < this->FirstPart[std::size_t(block) + 1]; ++part)
+  {
+    if (this->Parts[part] >> (code & 63) & 1)
+    {
+      return this->Before + part;
+    }
+  }
+  return Nowhere;
+}
+
+std::uint32_t WideOutside::setOf(const LatticePoint& wide)
+{
+  const std::uint32_t part = this->partOf(wide);
+  return part == Nowhere ? Nowhere : this->Sets.find(part);
+}
+
+void WideOutside::join(std::size_t narrow, const LatticePoint& wide)
+{
+  const std::uint32_t part = this->partOf(wide);
+  if (part != Nowhere)
+  {
+    this->Sets.unite(std::uint32_t(narrow), part);
+  }
+}
+
+/** Join the parts of a block that hold any of these points to a set. */
+void WideOutside::joinPoints(std::size_t block, std::uint64_t points, std::uint32_t set)
+{
+  for (std::uint32_t part = this->FirstPart[block]; points != 0 && part < this->FirstPart[block + 1]; ++part)
+  {
+    if (this->Parts[part] & points)
+    {
+      this->Sets.unite(set, this->Before + part);
+      points &= ~this->Parts[part];
+    }
+  }
+}
+
+void WideOutside::joinBlocks()
+{
+  for (std::size_t block = 0; block < this->Blocks.size(); ++block)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      std::uint64_t other = 0;
+      besideBlock(this->Blocks[block], axis, true, other);
+      const std::ptrdiff_t beside = findBlock(this->Blocks, other);
+      for (std::uint32_t part = this->FirstPart[block]; beside >= 0 && part < this->FirstPart[block + 1]; ++part)
+      {
+        this->joinPoints(std::size_t(beside), fromBehind(0, this->Parts[part], axis), this->Before + part);
+      }
+    }
+  }
+}
+
+void WideOutside::joinOctants(const LatticeLabels& labels, int width)
+{
+  const Octree& octree = labels.octree();
+  LatticeRegions regions = connectWideOutside(labels, width);
+  const std::uint32_t octants = this->Before + std::uint32_t(this->Parts.size());
+  this->Sets = UnionFind(octants + regions.sets.size());
+  for (std::uint32_t r = 0; r < regions.sets.size(); ++r)
+  {
+    const std::uint32_t set = regions.sets.find(r);
+    if (set != r)
+    {
+      this->Sets.unite(octants + r, octants + set);
+    }
+  }
+  OctantCursor cursor(octree);
+  for (std::size_t block = 0; block < this->Blocks.size(); ++block)
+  {
+    const std::uint64_t within = withinBorder(octree.lattice, this->Blocks[block]);
+    this->joinPoints(block, ~within, octants + regions.beyond);
+    // Octants narrower than `width` are in no region, so that mostly one tells about all points.
+    for (std::uint64_t left = within; left != 0;)
+    {
+      const int bit = lowestBit(left);
+      const auto location = cursor.locate(fromMorton(64 * this->Blocks[block] + std::uint64_t(bit)));
+      const int size = location.generation < 0 ? 0 : std::min(octree.lattice.depth - location.generation, 2);
+      const std::uint64_t points = size == 2 ? ~std::uint64_t(0) : size == 1 ? std::uint64_t(0xff) << (bit & 56) : std::uint64_t(1) << bit;
+      if (location.generation >= 0 && location.state == OctantState::Background &&
+        octree.lattice.cells() >> location.generation >= width)
+      {
+        this->joinPoints(block, points & left, octants + regions.octant(location.generation, location.index));
+      }
+      left &= ~points;
+      if (size < 2 && width > 2)
+      {
+        break;
+      }
+    }
+  }
+}
+
+} // namespace silhouette
