@@ -262,6 +262,22 @@ public:
     }
   }
 
+  /** One of all pixels, as measure() has it. */
+  float pixel(int row, int column) const
+  {
+    const std::uint8_t* pixels = this->row(row);
+    const std::int16_t* inColumn = &this->InColumn[std::size_t(row) * std::size_t(this->Width)];
+    const auto square = [&](int c) { return pixels[c] == pixels[column] ? int(inColumn[c]) * inColumn[c] : 0; };
+    int best = square(column);
+    for (int d = 1; d < this->Limit && d * d < best; ++d)
+    {
+      best = column >= d ? std::min(best, d * d + square(column - d)) : best;
+      best = column + d < this->Width ? std::min(best, d * d + square(column + d)) : best;
+    }
+    const float distance = std::min(std::sqrt(float(best)) - 0.5f, this->Map.reach);
+    return pixels[column] != 0 ? distance : -distance;
+  }
+
   /** All samples. */
   void run(std::vector<float>& value)
   {
@@ -496,6 +512,24 @@ float DistancesOnDemand::pixel(int row, int column)
     this->Transform->measure(row, piece, &this->Values[std::size_t(known) * TileSize]);
   }
   return this->Values[std::size_t(known) * TileSize + column % TileSize];
+}
+
+DistanceProbe::DistanceProbe(const std::uint8_t* object, int width, int height, double reach)
+  : Frame(frameOf(object, width, height, reach, 1))
+{
+  if (this->Frame.columns > 0)
+  {
+    this->Transform = std::make_unique<const DistanceTransform>(object, this->Frame);
+  }
+}
+
+DistanceProbe::~DistanceProbe() = default;
+
+float DistanceProbe::at(double u, double v) const
+{
+  return this->Transform
+    ? this->Frame.interpolate(u, v, [this](int row, int column) { return this->Transform->pixel(row, column); })
+    : -this->Frame.reach;
 }
 
 } // namespace silhouette

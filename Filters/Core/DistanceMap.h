@@ -108,4 +108,23 @@ private:
   std::vector<float> Values;
 };
 
+/**
+ * The same, not remembered, so that any number of threads may ask. What at() says is the same again. The image has to outlive it.
+ * Cost: two passes over the columns, and up to eight times the distance itself for each place.
+ */
+class DistanceProbe
+{
+public:
+  DistanceProbe(const std::uint8_t* object, int width, int height, double reach);
+  ~DistanceProbe();
+  DistanceProbe(const DistanceProbe&) = delete;
+  DistanceProbe& operator=(const DistanceProbe&) = delete;
+
+  float at(double u, double v) const;
+
+private:
+  DistanceFrame Frame;
+  std::unique_ptr<const DistanceTransform> Transform; ///< none where there is no object
+};
+
 } // namespace silhouette

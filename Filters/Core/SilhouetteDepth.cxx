@@ -50,7 +50,7 @@ SilhouetteDepth::SilhouetteDepth(const LatticeViews& views, int backgroundVotes,
   , BackgroundVotes(backgroundVotes)
   , Reach(reach)
   , Shifts(shifts)
-  , Maps(views.size())
+  , Probes(views.size())
 {
   if (backgroundVotes < 0 || backgroundVotes >= views.size())
   {
@@ -67,7 +67,7 @@ SilhouetteDepth::SilhouetteDepth(const LatticeViews& views, int backgroundVotes,
   }
   this->Shifts.resize(views.size(), Vector2::Zero());
   const Vector3 middle = Vector3::Constant(0.5 * views.lattice().cells());
-  execution.forRanges(this->Maps.size(), 1,
+  execution.forRanges(this->Probes.size(), 1,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t i = first; i < last; ++i)
@@ -75,7 +75,8 @@ SilhouetteDepth::SilhouetteDepth(const LatticeViews& views, int backgroundVotes,
         const PreparedView& view = views.view(int(i));
         // Octants nearer to the camera than the middle are larger.
         const double pixels = 1.5 * reach * project(views.projection(int(i)), middle).pixelsPerOctant;
-        this->Maps[i] = distanceMap(view.silhouette(), view.width, view.height, std::max(pixels, 2.0));
+        this->Probes[i] =
+          std::make_unique<const DistanceProbe>(view.silhouette(), view.width, view.height, std::max(pixels, 2.0));
       }
     });
   execution.checkpoint(1.0);
@@ -96,7 +97,7 @@ double SilhouetteDepth::inView(int i, const Vector3& p) const
   {
     return this->Reach;
   }
-  return std::clamp(this->Maps[i].at(u, v) / place.pixelsPerOctant, -this->Reach, this->Reach);
+  return std::clamp(this->Probes[i]->at(u, v) / place.pixelsPerOctant, -this->Reach, this->Reach);
 }
 
 double SilhouetteDepth::operator()(const Vector3& p, double enough) const

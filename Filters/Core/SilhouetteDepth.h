@@ -7,6 +7,7 @@
 #include "DistanceMap.h"
 #include "PreparedViews.h"
 
+#include <memory>
 #include <vector>
 
 namespace silhouette
@@ -18,7 +19,7 @@ public:
   /**
    * `views` is not copied and has to outlive this. `backgroundVotes` is k: so many views are not listened to at each point. Depths are exact
    * up to `reach` octants and cut off there. `shifts`: px, added to what the views project; one for each view, or none.
-   * Throws InvalidInput for k outside 0 to views - 1, a reach that is not positive, a wrong number of shifts. Cost: distanceMap() of every view.
+   * Throws InvalidInput for k outside 0 to views - 1, a reach that is not positive, a wrong number of shifts. Cost: a DistanceProbe of every view.
    */
   SilhouetteDepth(const LatticeViews& views, int backgroundVotes, double reach, Execution& execution,
     const std::vector<Vector2>& shifts = {});
@@ -38,7 +39,7 @@ private:
   int BackgroundVotes;
   double Reach;
   std::vector<Vector2> Shifts;
-  std::vector<DistanceMap> Maps;
+  std::vector<std::unique_ptr<const DistanceProbe>> Probes;
 };
 
 } // namespace silhouette

@@ -259,7 +259,7 @@ TEST(DistanceMap, TheLastSamplesGoOnBeyondTheImage)
   }
 }
 
-TEST(DistanceMap, OnDemandItIsTheSame)
+TEST(DistanceMap, OnDemandAndByProbeItIsTheSame)
 {
   Random random(5);
   std::vector<BinaryImage> images{ blank(30, 20, 0), blank(33, 20, 1) };
@@ -274,9 +274,11 @@ TEST(DistanceMap, OnDemandItIsTheSame)
     {
       const DistanceMap map = mapOf(image, reach);
       DistancesOnDemand some(image.pixels.data(), image.width, image.height, reach);
+      const DistanceProbe probe(image.pixels.data(), image.width, image.height, reach);
       for (int place = 0; place < 400; ++place)
       {
         const double u = random.uniform(-4, image.width + 4), v = random.uniform(-4, image.height + 4);
+        ASSERT_EQ(probe.at(u, v), map.at(u, v)) << image.width << " x " << image.height << " at " << u << " " << v;
         ASSERT_EQ(some.at(u, v), map.at(u, v)) << image.width << " x " << image.height << " at " << u << " " << v;
       }
     }
