@@ -2,6 +2,7 @@
 #include "HandleJoining.h"
 
 #include "Error.h"
+#include "LabelCache.h"
 #include "ShellPaths.h"
 #include "SimplePoint.h"
 
@@ -31,6 +32,8 @@ class Joining
 public:
   Joining(const LatticeLabels& labels, int loop)
     : Labels(labels)
+    , Shell(labels.shell())
+    , Beyond(labels)
     , Loop(loop)
     , Taken(labels.inside())
     , From(Taken.size(), Nobody)
@@ -82,15 +85,15 @@ private:
   static constexpr std::uint32_t Nobody = 0xffffffffu;
 
   /** A corner, of `among` if that is not empty, of each part around a corner; nothing where a part has none. */
-  std::vector<std::uint32_t> partsAround(std::uint32_t corner, const std::vector<std::uint32_t>& among) const
+  std::vector<std::uint32_t> partsAround(std::uint32_t corner, const std::vector<std::uint32_t>& among)
   {
     Neighbourhood labels;
     std::array<std::ptrdiff_t, 27> around;
     for (int n = 0; n < 27; ++n)
     {
       const LatticePoint p = neighbourOf(fromMorton(this->Labels.shell().corners[corner]), n);
-      around[n] = this->Labels.shell().find(mortonCode(p));
-      labels[n] = n != 13 && (around[n] >= 0 ? this->Taken[around[n]] != 0 : this->Labels.insideAt(p));
+      around[n] = this->Shell.find(mortonCode(p));
+      labels[n] = n != 13 && (around[n] >= 0 ? this->Taken[around[n]] != 0 : this->Beyond.insideAt(p));
     }
     const TopologicalNumbers numbers = topologicalNumbers(labels);
     std::vector<std::uint32_t> parts(numbers.inside, Nobody); // a corner of each, of the shell
@@ -139,6 +142,8 @@ private:
   }
 
   const LatticeLabels& Labels;
+  ShellCursor Shell;
+  LabelCache Beyond; ///< of points that are no corners of the shell
   int Loop;
   std::vector<std::uint8_t> Taken;
   std::vector<std::uint32_t> From; ///< towards the solid

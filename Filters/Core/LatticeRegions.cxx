@@ -2,6 +2,7 @@
 #include "LatticeRegions.h"
 
 #include "BlockBits.h"
+#include "LabelCache.h"
 #include "MarchingCubesTable.h"
 
 #include <algorithm>
@@ -255,6 +256,7 @@ std::vector<std::uint8_t> refutedOctants(const LatticeLabels& labels, OctantStat
   {
     first.push_back(first.empty() ? 0 : first.back() + (&generation - 1)->size());
   }
+  LabelCache cache(labels);
   forOctants(octree, state,
     [&](int g, std::size_t i)
     {
@@ -265,7 +267,7 @@ std::vector<std::uint8_t> refutedOctants(const LatticeLabels& labels, OctantStat
       {
         const LatticePoint o = cornerOffset(n);
         const LatticePoint q{ p.i + size * o.i, p.j + size * o.j, p.k + size * o.k };
-        against += labels.insideAt(q) != (state == OctantState::Inside);
+        against += cache.insideAt(q) != (state == OctantState::Inside);
       }
       refuted[first[g] + i] = size == 1 ? against > 0 : against == 8;
     });

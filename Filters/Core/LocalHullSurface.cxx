@@ -80,7 +80,9 @@ public:
     execution.forRanges(fractions.size(), 256,
       [&](std::size_t first, std::size_t last)
       {
-        Known known = this->from(keyOf(shell.corners[contoured.edges[first].inside], shell.corners[contoured.edges[first].outside])); // crossings are in the edges' own order
+        // Crossings are in the edges' own order.
+        const CrossedEdge& start = contoured.edges[first];
+        Known known = this->from(keyOf(shell.corners[start.inside], shell.corners[start.outside]));
         for (std::size_t e = first; e < last; ++e)
         {
           const CrossedEdge& edge = contoured.edges[e];

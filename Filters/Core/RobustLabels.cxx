@@ -161,7 +161,7 @@ bool holdsAround(const CornerShell& shell, const std::vector<std::uint64_t>& poi
 CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
 {
   std::vector<std::uint64_t> cells = shell.cells;
-  const bool isInOrder = std::is_sorted(cells.begin(), cells.end(), std::less_equal<std::uint64_t>());
+  const bool isInOrder = std::adjacent_find(cells.begin(), cells.end(), std::greater_equal<std::uint64_t>()) == cells.end();
   for (const std::uint64_t point : points)
   {
     const LatticePoint p = fromMorton(point);

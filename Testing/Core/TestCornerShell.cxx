@@ -44,6 +44,16 @@ TEST(CornerShell, SharesTheCornersOfItsCells)
     EXPECT_EQ(shell.find(shell.corners[c]), std::ptrdiff_t(c));
   }
   EXPECT_EQ(shell.find(mortonCode({ 100, 100, 100 })), -1);
+  ShellCursor cursor(shell);
+  for (int n = 0; n < 20000; ++n)
+  {
+    const LatticePoint p{ random.below(44), random.below(44), random.below(44) };
+    for (int around = 0; around < 27; around += 1 + random.below(5))
+    {
+      const LatticePoint q = neighbourOf({ p.i + 1, p.j + 1, p.k + 1 }, around);
+      ASSERT_EQ(cursor.find(mortonCode(q)), shell.find(mortonCode(q)));
+    }
+  }
 }
 
 TEST(CornerShell, OfNoCellsAndOfTheFurthestOnes)
