@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <string>
 
@@ -182,8 +183,7 @@ public:
     this->findLeast(this->modelRank(), execution);
     if (this->Options.alignViews)
     {
-      result.remainingDeficit =
-        std::max(0.0, typicalResidual(contourResiduals(this->Views, this->Least.contourMesh(execution), this->All, this->Length.limit(), execution)));
+      result.remainingDeficit = std::max(0.0, typicalResidual(this->residuals(this->Least.contourMesh(execution), this->All, execution)));
     }
     execution.checkpoint(0.65);
     if (this->Options.moveSurface)
@@ -194,6 +194,11 @@ public:
   }
 
 private:
+  std::vector<ContourResidual> residuals(const Mesh& model, const std::vector<int>& views, Execution& execution) const
+  {
+    return contourResiduals(this->Views, model, views, this->Length.limit(), execution);
+  }
+
   /** Residuals of all views against the surface, of which some are known. */
   std::vector<ContourResidual> completed(const std::vector<ContourResidual>& measured, Execution& execution) const
   {
@@ -201,7 +206,7 @@ private:
     std::vector<int> others;
     std::set_difference(
       this->All.begin(), this->All.end(), this->Some.begin(), this->Some.end(), std::back_inserter(others));
-    const auto residuals = contourResiduals(this->Views, this->Surface, others, this->Length.limit(), execution);
+    const auto residuals = this->residuals(this->Surface, others, execution);
     for (std::size_t n = 0; n < measured.size(); ++n)
     {
       all[this->Some[n]] = measured[n];
@@ -220,7 +225,7 @@ private:
     {
       auto residuals = round == 0
         ? this->completed(measured, execution)
-        : contourResiduals(this->Views, this->Least.contourMesh(execution), this->All, this->Length.limit(), execution);
+        : this->residuals(this->Least.contourMesh(execution), this->All, execution);
       removeCommonShift(this->Views, this->All, residuals);
       for (const int view : this->All)
       {
@@ -245,7 +250,8 @@ private:
   int modelRank() const
   {
     const int views = this->Views.size();
-    return std::min(std::max(2, int(std::lround(this->Options.modelDissent * views / std::max(1.0, this->Length.scale * this->Length.octants)))), views);
+    const double share = this->Options.modelDissent / (this->Length.scale * this->Length.octants); // whatever the field's lattice
+    return std::min(std::max(2, int(std::lround(share * views))), views);
   }
 
   /** The least and the `rank`-th least distance over the observed silhouettes. */
@@ -443,7 +449,7 @@ int halvingsFor(double deficit, const Lengths& lengths, const FieldCorrectionOpt
 void correctOnCoarserLattice(const Mesh& surface, const Lattice& lattice, const PreparedViews& views, const FieldCorrectionOptions& options,
   std::vector<ContourResidual> residuals, FieldCorrection& result, Execution& execution)
 {
-  const int halvings = std::min(halvingsFor(result.deficit, Lengths(lattice), options), lattice.depth);
+  const int halvings = std::min(halvingsFor(result.deficit, Lengths(lattice), options), lattice.depth - 1);
   const Lengths lengths = Lengths(lattice).coarser(halvings);
   FieldViews fieldViews(views, { lattice.root, lattice.depth - halvings }, lengths.reach(),
     halvings > 0 ? SamplesPerOctant : 0.0);

@@ -8,7 +8,8 @@
  * of a model, the field is min_i d_i + sum_i w_i (g_i - d_i) / sum_i w_i with w_i = exp(-(d_i - min d)^2 / 2
  * h^2). A model whose silhouettes are the observed ones is left as it is, whatever its shape; and parts that no
  * silhouette shows come from min_i d_i. The model is the n-th least g_i, n a share of the views, no further than twice the deficit
- * outside of the least, smoothed; where it is near-convex, its hull.
+ * outside of the least, smoothed; where it is near-convex, its hull. Where noise is so strong that smoothing is wide, all this is done on a coarser
+ * lattice (FieldRefinement.h).
  */
 #pragma once
 
