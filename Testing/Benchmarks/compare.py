@@ -57,14 +57,18 @@ def processor_seconds(result):
     return sum(value for name, value in result["cpu_seconds"].items() if name != "marching_cubes")
 
 
+def ratio_text(value):
+    return "%.3g" % value if value < 1000 else format(round(value), ",")
+
+
 def table(rows, cells):
     ours = rows["ours"]
     lines = ["", "%d cells a side" % cells, "",
              "| | time, ratio to ours | processor time | memory | faces | XOR % | error, cells |",
              "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
     for side, row in rows.items():
-        lines.append("| %s | %.3g | %.3g | %.3g | %s | %.3f | %.3f |" % (
-            NAMES[side], seconds(row) / seconds(ours), processor_seconds(row) / processor_seconds(ours),
+        lines.append("| %s | %s | %s | %.3g | %s | %.3f | %.3f |" % (
+            NAMES[side], ratio_text(seconds(row) / seconds(ours)), ratio_text(processor_seconds(row) / processor_seconds(ours)),
             row["memory_mib"] / ours["memory_mib"], format(row["faces"], ","), 100 * row["xor"], row["error"]))
     lines += ["", "Ours and VTK's filters: the fastest of three runs; others run once. Ours: sums %.3g, carve %.3g, surface %.3g s; %.0f MiB, of these the capture %.0f." % (
         ours["seconds"]["sums"], ours["seconds"]["carve"], ours["seconds"]["surface"], ours["memory_mib"],
@@ -78,7 +82,7 @@ def targets(rows, cells, options):
 
     def say(text, value, limit, at_least=False):
         met = value >= limit if at_least else value <= limit
-        said.append("- %s: %.3g (%s %.3g): %s" % (text, value, "at least" if at_least else "at most", limit,
+        said.append("- %s: %s (%s %.3g): %s" % (text, ratio_text(value), "at least" if at_least else "at most", limit,
                                                   "met" if met else "NOT met"))
     if "open3d" in rows:
         if cells == 512:
