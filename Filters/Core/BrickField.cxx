@@ -152,9 +152,10 @@ std::size_t localIndex(int axis, int a, int b)
 
 } // namespace
 
-BrickField::BrickField(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin)
-  : TheLattice(lattice)
+std::vector<std::uint64_t> bricksAround(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin)
 {
+  constexpr int BrickSize = BrickField::BrickSize;
+  std::vector<std::uint64_t> bricks;
   const int greatest = lattice.cells() / BrickSize;
   std::array<int, 6> before{ -1, -1, -1, -1, -1, -1 };
   for (const std::uint64_t cell : cells)
@@ -175,19 +176,26 @@ BrickField::BrickField(const Lattice& lattice, const std::vector<std::uint64_t>&
       {
         for (int i = low(p.i); i <= high(p.i); ++i)
         {
-          this->Bricks.push_back(mortonCode({ i, j, k }));
+          bricks.push_back(mortonCode({ i, j, k }));
         }
       }
     }
-    if (this->Bricks.size() > (std::size_t(1) << 16) && this->Bricks.size() == this->Bricks.capacity())
+    if (bricks.size() > (std::size_t(1) << 16) && bricks.size() == bricks.capacity())
     {
-      std::sort(this->Bricks.begin(), this->Bricks.end());
-      this->Bricks.erase(std::unique(this->Bricks.begin(), this->Bricks.end()), this->Bricks.end());
+      std::sort(bricks.begin(), bricks.end());
+      bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
     }
   }
-  std::sort(this->Bricks.begin(), this->Bricks.end());
-  this->Bricks.erase(std::unique(this->Bricks.begin(), this->Bricks.end()), this->Bricks.end());
-  this->Values.assign(this->Bricks.size() * BrickPoints, 0.0f);
+  std::sort(bricks.begin(), bricks.end());
+  bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+  return bricks;
+}
+
+BrickField::BrickField(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin)
+  : TheLattice(lattice)
+  , Bricks(bricksAround(lattice, cells, margin))
+  , Values(Bricks.size() * BrickPoints, 0.0f)
+{
 }
 
 void BrickField::keepBricks(const std::vector<std::uint8_t>& keep)

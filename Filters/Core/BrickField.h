@@ -15,6 +15,12 @@
 namespace silhouette
 {
 
+/**
+ * Morton codes, ascending, of the bricks that hold a point within `margin` octants of one of the given leaf cells (Morton codes). Cost: near-linear in
+ * the cells, least where neighbours follow one another.
+ */
+std::vector<std::uint64_t> bricksAround(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin);
+
 /** Values in octants, positive inside, in Morton order of the points. */
 class BrickField
 {
@@ -23,7 +29,7 @@ public:
   static constexpr std::size_t BrickPoints = 512;
 
   BrickField() = default;
-  /** Bricks that hold a point within `margin` octants of one of the given leaf cells (Morton codes). */
+  /** In bricksAround(), 0 everywhere. */
   BrickField(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin);
 
   const Lattice& lattice() const { return this->TheLattice; }

@@ -3,97 +3,32 @@
 
 #include "Bits.h"
 #include "BlockBits.h"
+#include "BrickField.h"
 #include "LatticeRegions.h"
 
 #include <algorithm>
-#include <array>
 
 namespace silhouette
 {
 namespace
 {
 
-constexpr int BrickSide = 8;
-
-void sortUnique(std::vector<std::uint64_t>& codes)
-{
-  std::sort(codes.begin(), codes.end());
-  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-}
-
-/** The bricks of 8 x 8 x 8 points with one within `margin` octants of any cell of one brick. */
-class BricksAround
-{
-public:
-  BricksAround(const Lattice& lattice, int margin)
-    : Margin(margin)
-    , Greatest(lattice.cells() / BrickSide)
-  {
-  }
-
-  void add(const LatticePoint& p)
-  {
-    const std::array<int, 6> asked{ this->low(p.i), this->low(p.j), this->low(p.k), this->high(p.i), this->high(p.j),
-      this->high(p.k) };
-    if (std::find(this->Asked.begin(), this->Asked.end(), asked) != this->Asked.end())
-    {
-      return;
-    }
-    this->Asked.push_back(asked);
-    for (int k = asked[2]; k <= asked[5]; ++k)
-    {
-      for (int j = asked[1]; j <= asked[4]; ++j)
-      {
-        for (int i = asked[0]; i <= asked[3]; ++i)
-        {
-          this->Bricks.push_back(mortonCode({ i, j, k }));
-        }
-      }
-    }
-  }
-
-  /** Hand on what has been found, and begin anew. */
-  void moveTo(std::vector<std::uint64_t>& bricks)
-  {
-    sortUnique(this->Bricks);
-    bricks.insert(bricks.end(), this->Bricks.begin(), this->Bricks.end());
-    this->Bricks.clear();
-    this->Asked.clear();
-  }
-
-private:
-  int low(int x) const { return std::max(x - this->Margin, 0) / BrickSide; }
-  int high(int x) const { return std::min((x + 1 + this->Margin) / BrickSide, this->Greatest); }
-
-  int Margin;
-  int Greatest;
-  std::vector<std::array<int, 6>> Asked;
-  std::vector<std::uint64_t> Bricks;
-};
-
 /** All blocks of the bricks with points within `margin` octants of the shell's cells with corners of both labels, ascending. */
 std::vector<std::uint64_t> blocksAround(const LatticeLabels& labels, int margin)
 {
   const auto& shell = labels.shell();
-  std::vector<std::uint64_t> bricks;
-  BricksAround around(labels.octree().lattice, margin);
+  std::vector<std::uint64_t> mixed;
   for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
   {
-    if (cell > 0 && shell.cells[cell] >> 9 != shell.cells[cell - 1] >> 9)
-    {
-      around.moveTo(bricks);
-    }
     const auto& corners = shell.cellCorners[cell];
     const std::uint8_t first = labels.inside()[corners[0]];
     if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return labels.inside()[c] != first; }))
     {
-      around.add(fromMorton(shell.cells[cell]));
+      mixed.push_back(shell.cells[cell]);
     }
   }
-  around.moveTo(bricks);
-  sortUnique(bricks);
   std::vector<std::uint64_t> blocks;
-  for (const std::uint64_t brick : bricks)
+  for (const std::uint64_t brick : bricksAround(labels.octree().lattice, mixed, margin))
   {
     for (std::uint64_t n = 0; n < 8; ++n)
     {
