@@ -46,20 +46,9 @@ double nearestInRow(const PreparedView& view, double u, int row, double most)
   return most;
 }
 
-/**
- * Distance from a place in the image to the nearest pixel square of the object, px; `most` where it is no less. Where it is no more than `enough` it may
- * be told as 0.
- */
-double nearestObject(const PreparedView& view, double u, double v, double most, double enough)
+/** Distance from a place in the image to the nearest pixel square of the object, px; `most` where it is no less. */
+double nearestObject(const PreparedView& view, double u, double v, double most)
 {
-  // Within a square around the place nothing is further away than its corners.
-  const double half = 0.7 * enough;
-  const auto pixel = [](double x) { return int(std::floor(x + 0.5)); };
-  if (half >= 1.0 && view.content(pixel(u - half) + 1, pixel(u + half) - 1, pixel(v - half) + 1, pixel(v + half) - 1).object)
-  {
-    return 0.0;
-  }
-
   const int first = std::clamp(int(std::floor(v + 0.5)), 0, view.height - 1);
   double square = most * most;
   bool any = true;
@@ -100,21 +89,23 @@ CornerDepth::CornerDepth(const LatticeViews& views, int backgroundVotes, double 
 
 double CornerDepth::operator()(const LatticePoint& p) const
 {
-  std::vector<double> deepest; // as many as count, the greatest first
+  std::vector<double> outside;
   for (int view = 0; view < this->Views->size(); ++view)
   {
     if (this->Views->vote(view, p) == Vote::Background)
     {
-      const bool allThere = int(deepest.size()) > this->BackgroundVotes;
-      const double depth = this->outsideView(view, p, allThere ? deepest.back() : 0.0);
-      deepest.insert(std::upper_bound(deepest.begin(), deepest.end(), depth, std::greater<double>()), depth);
-      deepest.resize(allThere ? deepest.size() - 1 : deepest.size());
+      outside.push_back(this->outsideView(view, p));
     }
   }
-  return int(deepest.size()) <= this->BackgroundVotes ? 0.0 : -deepest.back();
+  if (int(outside.size()) <= this->BackgroundVotes)
+  {
+    return 0.0;
+  }
+  std::nth_element(outside.begin(), outside.begin() + this->BackgroundVotes, outside.end(), std::greater<double>());
+  return -outside[std::size_t(this->BackgroundVotes)];
 }
 
-double CornerDepth::outsideView(int view, const LatticePoint& p, double enough) const
+double CornerDepth::outsideView(int view, const LatticePoint& p) const
 {
   const PreparedView& prepared = this->Views->view(view);
   const LatticeProjection& projection = this->Views->projection(view);
@@ -122,7 +113,7 @@ double CornerDepth::outsideView(int view, const LatticePoint& p, double enough) 
   const double scale = pixelsPerOctant(projection, p);
   // Far outside the image nothing is near: the whole reach.
   const double u = std::clamp(h.U / h.W, -1e8, 1e8), v = std::clamp(h.V / h.W, -1e8, 1e8);
-  return std::min(this->Reach, nearestObject(prepared, u, v, std::min(this->Reach * scale, 1e8), std::min(enough * scale, 1e8)) / scale);
+  return std::min(this->Reach, nearestObject(prepared, u, v, std::min(this->Reach * scale, 1e8)) / scale);
 }
 
 } // namespace silhouette

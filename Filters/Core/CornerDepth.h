@@ -29,7 +29,7 @@ public:
   double operator()(const LatticePoint& p) const;
 
 private:
-  double outsideView(int view, const LatticePoint& p, double enough) const;
+  double outsideView(int view, const LatticePoint& p) const;
 
   const LatticeViews* Views;
   int BackgroundVotes;

@@ -2,7 +2,6 @@
 #include "SilhouetteRepair.h"
 
 #include "LatticeLabels.h"
-#include "RadixSort.h"
 #include "SilhouetteDissent.h"
 #include "SilhouetteSpeckles.h"
 #include "UnionFind.h"
@@ -133,8 +132,7 @@ std::vector<Rejected> findRejected(const Octree& octree, const LatticeViews& vie
         }
       }
     }
-    radixSort(next, 3 * (views.lattice().depth + 1), [](std::uint64_t code) { return code; });
-    next.erase(std::unique(next.begin(), next.end()), next.end());
+    sortUnique(next);
     for (const auto* wave : {&before, &now})
     {
       fresh.clear();
