@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BrickField.h"
 
+#include "Bits.h"
 #include "LatticeSurface.h"
 
 #include <algorithm>
@@ -150,44 +151,103 @@ std::size_t localIndex(int axis, int a, int b)
   return std::size_t(mortonCode(p));
 }
 
+/**
+ * The bricks that cells of one brick ask for. Along each axis a cell asks for those from one of two on, to one of two: there are no more than 64 kinds
+ * of cells in a brick, and each kind is asked once.
+ */
+class BricksAsked
+{
+public:
+  BricksAsked(const Lattice& lattice, int margin)
+    : Margin(margin)
+    , Greatest(lattice.cells() / BrickField::BrickSize)
+    , First(-((margin + BrickField::BrickSize - 1) / BrickField::BrickSize))
+    , Last((1 + margin) / BrickField::BrickSize)
+    , Side(this->Last + 1 - this->First + 1)
+    , Asked(std::size_t(this->Side) * this->Side * this->Side, 0)
+  {
+  }
+
+  /** The most bricks that one brick's cells ask for. */
+  std::size_t most() const { return this->Asked.size(); }
+
+  /** A cell of the same brick as all since appendTo(). */
+  void add(std::uint64_t cell)
+  {
+    this->Brick = fromMorton(cell / BrickField::BrickPoints);
+    const LatticePoint p = fromMorton(cell % BrickField::BrickPoints);
+    this->Kinds |= std::uint64_t(1) << (this->kindOf(p.i) + 4 * this->kindOf(p.j) + 16 * this->kindOf(p.k));
+  }
+
+  void appendTo(std::vector<std::uint64_t>& bricks)
+  {
+    for (; this->Kinds != 0; this->Kinds &= this->Kinds - 1)
+    {
+      this->ask(lowestBit(this->Kinds));
+    }
+    for (std::size_t n = 0; n < this->Asked.size(); ++n)
+    {
+      const int x = int(n) % this->Side, y = int(n) / this->Side % this->Side, z = int(n) / this->Side / this->Side;
+      const LatticePoint q = this->Brick + LatticePoint{ this->First + x, this->First + y, this->First + z };
+      if (this->Asked[n] && std::min({ q.i, q.j, q.k }) >= 0 && std::max({ q.i, q.j, q.k }) <= this->Greatest)
+      {
+        bricks.push_back(mortonCode(q));
+      }
+    }
+    std::fill(this->Asked.begin(), this->Asked.end(), std::uint8_t(0));
+  }
+
+private:
+  /** By a coordinate within the brick: bit 0 where the first brick is one later, bit 1 where the last is. */
+  int kindOf(int x) const
+  {
+    const int size = BrickField::BrickSize;
+    return int(x - this->Margin >= size * (this->First + 1)) | int(x + 1 + this->Margin >= size * (this->Last + 1)) << 1;
+  }
+
+  void ask(int kind)
+  {
+    const auto first = [&](int axis) { return kind >> 2 * axis & 1; };
+    const auto last = [&](int axis) { return this->Last - this->First + (kind >> (2 * axis + 1) & 1); };
+    for (int z = first(2); z <= last(2); ++z)
+    {
+      for (int y = first(1); y <= last(1); ++y)
+      {
+        const auto row = this->Asked.begin() + this->Side * (y + this->Side * z);
+        std::fill(row + first(0), row + last(0) + 1, std::uint8_t(1));
+      }
+    }
+  }
+
+  int Margin;
+  int Greatest; ///< coordinate of a brick
+  int First;    ///< that any cell asks for, from its own on
+  int Last;     ///< that all cells ask for
+  int Side;
+  std::vector<std::uint8_t> Asked;
+  LatticePoint Brick;
+  std::uint64_t Kinds = 0;
+};
+
 } // namespace
 
 std::vector<std::uint64_t> bricksAround(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin)
 {
-  constexpr int BrickSize = BrickField::BrickSize;
   std::vector<std::uint64_t> bricks;
-  const int greatest = lattice.cells() / BrickSize;
-  std::array<int, 6> before{ -1, -1, -1, -1, -1, -1 };
-  for (const std::uint64_t cell : cells)
+  BricksAsked asked(lattice, margin);
+  for (std::size_t n = 0; n < cells.size(); ++n)
   {
-    const LatticePoint p = fromMorton(cell);
-    const auto low = [&](int x) { return std::max(x - margin, 0) / BrickSize; };
-    const auto high = [&](int x) { return std::min((x + 1 + margin) / BrickSize, greatest); };
-    // Neighbouring cells mostly ask for the same bricks.
-    const std::array<int, 6> asked{ low(p.i), low(p.j), low(p.k), high(p.i), high(p.j), high(p.k) };
-    if (asked == before)
+    asked.add(cells[n]);
+    if (n + 1 == cells.size() || cells[n + 1] / BrickField::BrickPoints != cells[n] / BrickField::BrickPoints)
     {
-      continue;
-    }
-    before = asked;
-    for (int k = low(p.k); k <= high(p.k); ++k)
-    {
-      for (int j = low(p.j); j <= high(p.j); ++j)
+      asked.appendTo(bricks);
+      if (bricks.size() > (std::size_t(1) << 16) && bricks.capacity() - bricks.size() < asked.most())
       {
-        for (int i = low(p.i); i <= high(p.i); ++i)
-        {
-          bricks.push_back(mortonCode({ i, j, k }));
-        }
+        sortUnique(bricks);
       }
     }
-    if (bricks.size() > (std::size_t(1) << 16) && bricks.size() == bricks.capacity())
-    {
-      std::sort(bricks.begin(), bricks.end());
-      bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
-    }
   }
-  std::sort(bricks.begin(), bricks.end());
-  bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+  sortUnique(bricks);
   return bricks;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellSafety.h"
 
+#include "FirstTouch.h"
 #include "TriangleIntersection.h"
 
 #include <algorithm>
@@ -73,21 +74,24 @@ void requireSinglePrecision(const Lattice& lattice)
   }
 }
 
-Mesh placePoints(const Lattice& lattice, const CornerShell& shell, const LatticeSurface& surface,
-  const std::vector<double>& fractions, bool singlePrecision)
+Mesh placePoints(const Lattice& lattice, const CornerShell& shell, LatticeSurface& surface,
+  const std::vector<double>& fractions, bool singlePrecision, Execution& execution)
 {
   if (singlePrecision)
   {
     requireSinglePrecision(lattice);
   }
   Mesh mesh;
-  mesh.triangles = surface.triangles;
-  mesh.points.reserve(surface.edges.size());
-  for (std::size_t e = 0; e < surface.edges.size(); ++e)
-  {
-    mesh.points.push_back(
-      rounded(crossingPosition(lattice, shell, surface.edges[e], fractions[e]), singlePrecision));
-  }
+  mesh.triangles = std::move(surface.triangles);
+  resizeSideBySide(mesh.points, surface.edges.size(), execution);
+  execution.forRanges(mesh.points.size(), 4096,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t e = first; e < last; ++e)
+      {
+        mesh.points[e] = rounded(crossingPosition(lattice, shell, surface.edges[e], fractions[e]), singlePrecision);
+      }
+    });
   return mesh;
 }
 

@@ -276,17 +276,6 @@ std::ptrdiff_t CornerShell::findCell(const LatticePoint& cell) const
   return at != this->cells.end() && *at == code ? at - this->cells.begin() : -1;
 }
 
-void ShellCursor::read(std::uint64_t code, Block& block) const
-{
-  const auto& corners = this->Shell->corners;
-  const auto first = std::lower_bound(corners.begin(), corners.end(), code << 6);
-  block = { code, 0, std::size_t(first - corners.begin()) };
-  for (auto corner = first; corner != corners.end() && *corner >> 6 == code; ++corner)
-  {
-    block.corners |= std::uint64_t(1) << (*corner & 63);
-  }
-}
-
 CornerShell makeCornerShell(std::vector<std::uint64_t> cells, Execution& execution)
 {
   CornerShell shell;

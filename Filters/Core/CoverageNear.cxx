@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CoverageNear.h"
 
+#include "IndicesWhere.h"
 #include "SurvivorCoverage.h"
 
 #include <algorithm>
@@ -31,12 +32,12 @@ struct CellBox
 
 } // namespace
 
-CoverageNear::CoverageNear(const Octree& octree, const Mesh& mesh, const std::vector<Box>& swept)
+CoverageNear::CoverageNear(const Octree& octree, const Mesh& mesh, const std::vector<Box>& swept, Execution& execution)
 {
   this->Part.lattice = octree.lattice;
   this->Part.generations.resize(octree.generations.size());
   this->findSurvivors(octree, swept);
-  this->findTriangles(mesh, swept);
+  this->findTriangles(mesh, swept, execution);
 }
 
 void CoverageNear::findSurvivors(const Octree& octree, const std::vector<Box>& swept)
@@ -72,7 +73,7 @@ void CoverageNear::findSurvivors(const Octree& octree, const std::vector<Box>& s
   }
 }
 
-void CoverageNear::findTriangles(const Mesh& mesh, const std::vector<Box>& swept)
+void CoverageNear::findTriangles(const Mesh& mesh, const std::vector<Box>& swept, Execution& execution)
 {
   const std::size_t n = std::size_t(this->Part.lattice.cells());
   std::vector<std::uint8_t> rows(n * n, 0); // along x, in which there are such survivors
@@ -82,7 +83,7 @@ void CoverageNear::findTriangles(const Mesh& mesh, const std::vector<Box>& swept
     rows[std::size_t(p.k) * n + std::size_t(p.j)] = 1;
   }
   const BoxTree moving(swept);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  const auto concerns = [&](std::size_t t)
   {
     const Box box = triangleBox(mesh.points, mesh.triangles[t]);
     const CellBox range(this->Part.lattice, box);
@@ -96,31 +97,14 @@ void CoverageNear::findTriangles(const Mesh& mesh, const std::vector<Box>& swept
     {
       moving.overlapping(box, [&](std::int32_t) { met = true; });
     }
-    if (met)
-    {
-      this->Triangles.push_back(std::int32_t(t));
-    }
-  }
+    return met;
+  };
+  this->Triangles = MeshPart(mesh, indicesWhere(mesh.triangles.size(), 1024, execution, concerns));
 }
 
 std::vector<std::uint64_t> CoverageNear::lost(const Mesh& mesh, Execution& execution) const
 {
-  Mesh part;
-  std::vector<std::int32_t> number(mesh.points.size(), -1);
-  for (const std::int32_t t : this->Triangles)
-  {
-    Triangle triangle = mesh.triangles[t];
-    for (std::int32_t& p : triangle)
-    {
-      if (number[p] < 0)
-      {
-        number[p] = std::int32_t(part.points.size());
-        part.points.push_back(mesh.points[p]);
-      }
-      p = number[p];
-    }
-    part.triangles.push_back(triangle);
-  }
+  const Mesh part = this->Triangles.of(mesh);
   const auto coverage = survivorCoverage(this->Part, part, execution);
   std::vector<std::uint64_t> codes;
   for (std::size_t o = 0; o < coverage.size(); ++o)

@@ -6,7 +6,7 @@
 
 #include "BoxTree.h"
 #include "Execution.h"
-#include "Mesh.h"
+#include "MeshPart.h"
 #include "Octree.h"
 
 #include <cstdint>
@@ -23,7 +23,7 @@ public:
    * before. Survivors of the last generation that no box meets are crossed and enclosed as before. `octree` is not copied
    * and has to outlive this. Cost: the boxes' octants, and a pass over the triangles.
    */
-  CoverageNear(const Octree& octree, const Mesh& mesh, const std::vector<Box>& swept);
+  CoverageNear(const Octree& octree, const Mesh& mesh, const std::vector<Box>& swept, Execution& execution);
 
   /** Morton codes, ascending, of the lost survivors that a box meets. `mesh` differs from the one before in points alone. Cost:
    * survivorCoverage() of those octants, with the triangles in their rows along x. */
@@ -31,10 +31,10 @@ public:
 
 private:
   void findSurvivors(const Octree& octree, const std::vector<Box>& swept);
-  void findTriangles(const Mesh& mesh, const std::vector<Box>& swept);
+  void findTriangles(const Mesh& mesh, const std::vector<Box>& swept, Execution& execution);
 
-  Octree Part;                         ///< the survivors, in a last generation of their own
-  std::vector<std::int32_t> Triangles; ///< that may lie in the survivors' rows
+  Octree Part;        ///< the survivors, in a last generation of their own
+  MeshPart Triangles; ///< that may lie in the survivors' rows
 };
 
 } // namespace silhouette

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldViews.h"
 
-#include "OutlineRendering.h"
 #include "Vectorised.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace silhouette
 {
@@ -223,10 +223,15 @@ void FieldViews::insideBlock(
   interpolateBlock(places, float(this->Reach), inside);
 }
 
-BinaryImage FieldViews::render(const OutlineRenderer& renderer, int view) const
+std::vector<ImageCamera> FieldViews::cameras(const std::vector<int>& views) const
 {
-  const PreparedView& seen = (*this->Views)[view];
-  return renderer.render(this->Projections[view], seen.width, seen.height);
+  std::vector<ImageCamera> cameras;
+  for (const int view : views)
+  {
+    const PreparedView& seen = (*this->Views)[view];
+    cameras.push_back({ this->Projections[view], seen.width, seen.height });
+  }
+  return cameras;
 }
 
 DistanceMap FieldViews::distances(int view, const std::uint8_t* object) const
@@ -238,14 +243,16 @@ DistanceMap FieldViews::distances(int view, const std::uint8_t* object) const
 
 std::vector<DistanceMap> FieldViews::distances(const Mesh& mesh, Execution& execution) const
 {
-  const OutlineRenderer renderer(mesh);
-  std::vector<DistanceMap> maps(std::size_t(this->size()));
+  std::vector<int> all(std::size_t(this->size()));
+  std::iota(all.begin(), all.end(), 0);
+  const OutlineRenderer renderer(mesh, this->cameras(all), execution);
+  std::vector<DistanceMap> maps(all.size());
   execution.forRanges(maps.size(), 1,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t i = first; i < last; ++i)
       {
-        maps[i] = this->distances(int(i), this->render(renderer, int(i)).pixels.data());
+        maps[i] = this->distances(int(i), renderer.render(i).pixels.data());
       }
     });
   return maps;

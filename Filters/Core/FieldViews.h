@@ -5,15 +5,13 @@
 #pragma once
 
 #include "DistanceMap.h"
-#include "Mesh.h"
+#include "OutlineRendering.h"
 #include "PreparedViews.h"
 
 #include <vector>
 
 namespace silhouette
 {
-
-class OutlineRenderer;
 
 class FieldViews
 {
@@ -36,9 +34,9 @@ public:
   /** The same distances, of all pixels, for whoever asks about few places; of any view. */
   DistancesOnDemand observedOnDemand(int view) const;
 
-  /** The silhouette of a mesh as one view (shifted) would see it. */
-  BinaryImage render(const OutlineRenderer& renderer, int view) const;
-  /** The distances in the silhouettes of a mesh as all views (shifted) would see it. Cost: render() and distanceMap() of each. */
+  /** Cameras of some views (shifted), for the silhouettes of a mesh as they would see it. */
+  std::vector<ImageCamera> cameras(const std::vector<int>& views) const;
+  /** The distances in the silhouettes of a mesh as all views (shifted) would see it. Cost: OutlineRenderer, and distanceMap() of each. */
   std::vector<DistanceMap> distances(const Mesh& mesh, Execution& execution) const;
 
   /** px: what is added to every projected point of a view. */

@@ -2,6 +2,7 @@
 #include "HandleJoining.h"
 
 #include "Error.h"
+#include "CodeCursor.h"
 #include "LabelCache.h"
 #include "ShellPaths.h"
 #include "SimplePoint.h"
@@ -32,7 +33,7 @@ class Joining
 public:
   Joining(const LatticeLabels& labels, int loop)
     : Labels(labels)
-    , Shell(labels.shell())
+    , Shell(labels.shell().corners)
     , Beyond(labels)
     , Loop(loop)
     , Taken(labels.inside())
@@ -142,7 +143,7 @@ private:
   }
 
   const LatticeLabels& Labels;
-  ShellCursor Shell;
+  CodeCursor Shell;
   LabelCache Beyond; ///< of points that are no corners of the shell
   int Loop;
   std::vector<std::uint8_t> Taken;

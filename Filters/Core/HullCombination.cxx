@@ -38,12 +38,6 @@ void addCellsAround(const LatticePoint& lower, int axis, const Lattice& lattice,
   }
 }
 
-void sortUnique(std::vector<std::uint64_t>& codes)
-{
-  std::sort(codes.begin(), codes.end());
-  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-}
-
 /** The cells around the edges on which rows begin and end. */
 std::vector<std::uint64_t> cellsAtEnds(const SolidRows& rows, const Lattice& lattice)
 {

@@ -11,7 +11,7 @@
 namespace silhouette
 {
 
-/** Not for several threads at once. The labels have to outlive it, and whoever changes one has to say so. */
+/** Not for several threads at once. The labels have to outlive it, and whoever labels a point inside has to say so. */
 class LabelCache
 {
 public:
@@ -33,11 +33,11 @@ public:
     return (block.inside >> (code & 63) & 1) != 0;
   }
 
-  /** The label of a point of this Morton code has changed. */
-  void forget(std::uint64_t point)
+  /** The point of this Morton code is inside now. */
+  void setInside(std::uint64_t point)
   {
     Block& block = this->Remembered[(point >> 6) % Slots];
-    block = block.code == point >> 6 ? Block() : block;
+    block.inside |= block.code == point >> 6 ? std::uint64_t(1) << (point & 63) : 0;
   }
 
 private:

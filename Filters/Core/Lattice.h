@@ -8,8 +8,10 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace silhouette
 {
@@ -114,5 +116,18 @@ struct Lattice
     return p.i >= 0 && p.j >= 0 && p.k >= 0 && p.i < n && p.j < n && p.k < n;
   }
 };
+
+/** Is a point one of a lattice of so many cells a side, its border included? */
+inline bool isOfLattice(const LatticePoint& p, std::int32_t cells)
+{
+  return std::min({ p.i, p.j, p.k }) >= 0 && std::max({ p.i, p.j, p.k }) <= cells;
+}
+
+/** Sort codes, and leave each of them once. */
+inline void sortUnique(std::vector<std::uint64_t>& codes)
+{
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+}
 
 } // namespace silhouette

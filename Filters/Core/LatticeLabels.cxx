@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <tuple>
 
 namespace silhouette
 {
@@ -18,6 +19,7 @@ namespace
 
 constexpr double OnEdgeTolerance = 1e-3;
 constexpr std::uint8_t Unknown = 2;
+constexpr std::uint64_t NoEdge = ~std::uint64_t(0);
 
 /** The lattice edge that `p` lies on; false where it lies on none. */
 bool locateCrossing(const Eigen::Vector3d& p, const Lattice& lattice, LatticeCrossing& crossing)
@@ -50,18 +52,9 @@ int axisOf(std::uint64_t edge)
   return int(edge & 3);
 }
 
-} // namespace
-
-std::ptrdiff_t SurfaceCrossings::find(std::uint64_t edge) const
+/** Outward, not normalised: only the sign along an edge counts. */
+std::vector<Eigen::Vector3d> pointNormals(const Mesh& surface)
 {
-  const auto at = std::lower_bound(this->crossings.begin(), this->crossings.end(), edge,
-    [](const LatticeCrossing& crossing, std::uint64_t key) { return crossing.edge < key; });
-  return at != this->crossings.end() && at->edge == edge ? at - this->crossings.begin() : -1;
-}
-
-SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice)
-{
-  // Outward normals, not normalised: only the sign along the edge counts.
   std::vector<Eigen::Vector3d> normals(surface.points.size(), Eigen::Vector3d::Zero());
   for (const auto& t : surface.triangles)
   {
@@ -72,36 +65,60 @@ SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice)
       normals[corner] += normal;
     }
   }
-  SurfaceCrossings found;
-  std::vector<std::pair<LatticeCrossing, std::uint8_t>> all;
-  all.reserve(surface.points.size());
-  for (std::size_t i = 0; i < surface.points.size(); ++i)
+  return normals;
+}
+
+} // namespace
+
+std::ptrdiff_t SurfaceCrossings::find(std::uint64_t edge) const
+{
+  const auto at = std::lower_bound(this->crossings.begin(), this->crossings.end(), edge,
+    [](const LatticeCrossing& crossing, std::uint64_t key) { return crossing.edge < key; });
+  return at != this->crossings.end() && at->edge == edge ? at - this->crossings.begin() : -1;
+}
+
+SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice, CrossingSides sides, Execution& execution)
+{
+  struct Located
   {
-    LatticeCrossing crossing;
-    if (!locateCrossing(surface.points[i], lattice, crossing))
+    LatticeCrossing crossing{ NoEdge, 0.0 };
+    std::uint8_t lowerInside = 0;
+    bool operator<(const Located& b) const
     {
-      ++found.ignoredPoints;
-      continue;
+      return std::tie(this->crossing.edge, this->crossing.fraction, this->lowerInside) <
+        std::tie(b.crossing.edge, b.crossing.fraction, b.lowerInside);
     }
-    all.emplace_back(crossing, std::uint8_t(normals[i][axisOf(crossing.edge)] > 0.0));
-  }
-  // Several points may lie on one edge of a strange surface: the first by position counts.
-  const auto isBefore = [](const auto& a, const auto& b)
-  {
-    return a.first.edge != b.first.edge ? a.first.edge < b.first.edge
-      : a.first.fraction != b.first.fraction ? a.first.fraction < b.first.fraction
-                                             : a.second < b.second;
   };
-  if (!std::is_sorted(all.begin(), all.end(), isBefore)) // a surface made on this lattice is
-  {
-    std::sort(all.begin(), all.end(), isBefore);
-  }
-  for (const auto& one : all)
-  {
-    if (found.crossings.empty() || found.crossings.back().edge != one.first.edge)
+  const std::vector<Eigen::Vector3d> normals = sides == CrossingSides::Located ? pointNormals(surface) : std::vector<Eigen::Vector3d>();
+  std::vector<Located> all(surface.points.size());
+  execution.forRanges(all.size(), 4096,
+    [&](std::size_t first, std::size_t last)
     {
-      found.crossings.push_back(one.first);
-      found.lowerInside.push_back(one.second);
+      for (std::size_t i = first; i < last; ++i)
+      {
+        if (locateCrossing(surface.points[i], lattice, all[i].crossing) && !normals.empty())
+        {
+          all[i].lowerInside = normals[i][axisOf(all[i].crossing.edge)] > 0.0;
+        }
+      }
+    });
+  if (!std::is_sorted(all.begin(), all.end())) // a surface made on this lattice is
+  {
+    std::sort(all.begin(), all.end());
+  }
+  SurfaceCrossings found;
+  found.crossings.reserve(all.size());
+  // Several points may lie on one edge of a strange surface: the first by position counts.
+  for (const Located& one : all)
+  {
+    found.ignoredPoints += one.crossing.edge == NoEdge;
+    if (one.crossing.edge != NoEdge && (found.crossings.empty() || found.crossings.back().edge != one.crossing.edge))
+    {
+      found.crossings.push_back(one.crossing);
+      if (!normals.empty())
+      {
+        found.lowerInside.push_back(one.lowerInside);
+      }
     }
   }
   return found;

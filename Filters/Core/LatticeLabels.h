@@ -32,17 +32,25 @@ inline std::uint64_t edgeKey(std::uint64_t lower, int axis)
 struct SurfaceCrossings
 {
   std::vector<LatticeCrossing> crossings;
-  std::vector<std::uint8_t> lowerInside; ///< for each, 1 where the edge's lower end is the inside one
+  std::vector<std::uint8_t> lowerInside; ///< for each, 1 where the edge's lower end is the inside one; empty where that was not asked for
   std::uint64_t ignoredPoints = 0;       ///< points that lie on no lattice edge
 
   /** Index of an edge's crossing, or -1. */
   std::ptrdiff_t find(std::uint64_t edge) const;
 };
 
+/** Is it to be found which end of a crossed edge is inside? */
+enum class CrossingSides
+{
+  Located,
+  NotLocated
+};
+
 /**
- * Find the points' lattice edges (to within 1e-3 of an edge), and from the triangles' normals which end is inside.
+ * Find the points' lattice edges (to within 1e-3 of an edge), and from the triangles' normals, if that is asked for, which end is inside. Cost: linear,
+ * for a surface whose points are not in the edges' order n log n.
  */
-SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice);
+SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice, CrossingSides sides, Execution& execution);
 
 /** The inside votes of the shell's corners, as CornerVotes.h tells. */
 std::vector<std::uint16_t> shellVotes(

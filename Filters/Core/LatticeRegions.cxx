@@ -2,11 +2,14 @@
 #include "LatticeRegions.h"
 
 #include "BlockBits.h"
+#include "IntersectionAround.h"
 #include "LabelCache.h"
 #include "MarchingCubesTable.h"
+#include "UnionFind.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <iterator>
 #include <set>
 
@@ -15,6 +18,8 @@ namespace silhouette
 namespace
 {
 
+constexpr std::size_t RangeGrain = 4096; ///< octants, cells or corners worth a thread
+
 LatticePoint lowestCell(const Octree& octree, int generation, std::size_t index)
 {
   const int shift = octree.lattice.depth - generation;
@@ -22,24 +27,47 @@ LatticePoint lowestCell(const Octree& octree, int generation, std::size_t index)
   return { p.i << shift, p.j << shift, p.k << shift };
 }
 
-/** Call `work(generation, index)` for every leaf octant with one of two states. */
-template <typename Work>
-void forOctants(const Octree& octree, OctantState state, const Work& work)
+/** Call `work(generation, index)` for every octant with this state; perhaps side by side, each range by a worker that `makeWorker` makes. */
+template <typename MakeWorker>
+void forOctants(const Octree& octree, OctantState state, Execution& execution, const MakeWorker& makeWorker)
 {
   for (int g = octree.treeGeneration; g <= octree.lattice.depth; ++g)
   {
     const auto& states = octree.generations[g].state;
-    for (std::size_t i = 0; i < states.size(); ++i)
-    {
-      if (states[i] == state)
+    execution.forRanges(states.size(), RangeGrain,
+      [&](std::size_t first, std::size_t last)
       {
-        work(g, i);
-      }
-    }
+        auto work = makeWorker();
+        for (std::size_t i = first; i < last; ++i)
+        {
+          if (states[i] == state)
+          {
+            work(g, i);
+          }
+        }
+      });
   }
 }
 
-LatticeRegions emptyRegions(const Octree& octree, std::size_t corners)
+/** On the calling thread, for the octants of one state whose set is among the given ones, each named by its least member. */
+template <typename Work>
+void forOctantsOf(const Octree& octree, OctantState state, const std::set<std::uint32_t>& sets, LatticeRegions& regions, const Work& work)
+{
+  Execution alone;
+  forOctants(octree, state, alone,
+    [&]
+    {
+      return [&](int g, std::size_t i)
+      {
+        if (sets.count(regions.sets.find(regions.octant(g, i))))
+        {
+          work(g, i);
+        }
+      };
+    });
+}
+
+LatticeRegions emptyRegions(const Octree& octree, std::size_t corners, Execution& execution)
 {
   LatticeRegions regions;
   std::size_t count = corners;
@@ -49,11 +77,11 @@ LatticeRegions emptyRegions(const Octree& octree, std::size_t corners)
     count += generation.size();
   }
   regions.beyond = std::uint32_t(count);
-  regions.sets = UnionFind(count + 1);
+  regions.sets = ConcurrentUnionFind(count + 1, execution);
   return regions;
 }
 
-/** Joins octants of one state across their faces. Every pair of neighbours is met from its smaller octant. */
+/** Joins octants of one state across their faces. Every pair of neighbours is met from its smaller octant. One for each thread. */
 class OctantJoining
 {
 public:
@@ -69,20 +97,16 @@ public:
   {
   }
 
-  void run()
+  void operator()(int g, std::size_t i)
   {
-    forOctants(this->Source, this->State,
-      [&](int g, std::size_t i)
+    if (this->counts(g, i))
+    {
+      this->joinToSiblings(g, i);
+      for (int side = 0; side < 6; ++side)
       {
-        if (this->counts(g, i))
-        {
-          this->joinToSiblings(g, i);
-          for (int side = 0; side < 6; ++side)
-          {
-            this->joinBeside(g, i, side / 2, side % 2 != 0);
-          }
-        }
-      });
+        this->joinBeside(g, i, side / 2, side % 2 != 0);
+      }
+    }
   }
 
 private:
@@ -134,9 +158,10 @@ private:
   std::array<OctantCursor, 6> Cursors; ///< one for each side
 };
 
-void joinOctants(const Octree& octree, OctantState state, bool beyond, const std::vector<std::uint8_t>& refuted, LatticeRegions& regions)
+void joinOctants(const Octree& octree, OctantState state, bool beyond, const std::vector<std::uint8_t>& refuted, LatticeRegions& regions,
+  Execution& execution)
 {
-  OctantJoining(octree, state, beyond, refuted, regions).run();
+  forOctants(octree, state, execution, [&] { return OctantJoining(octree, state, beyond, refuted, regions); });
 }
 
 /** One for each cell around a corner: going through corners in Morton order, each stays in the same octants for long. */
@@ -146,29 +171,6 @@ CursorsAround cursorsAround(const Octree& octree)
 {
   const OctantCursor c(octree);
   return { c, c, c, c, c, c, c, c };
-}
-
-/** For each corner of the shell: which of the eight cells around it are intersection octants, a bit each. */
-std::vector<std::uint8_t> intersectionAround(const Octree& octree, const CornerShell& shell)
-{
-  std::vector<std::uint8_t> around(shell.corners.size(), 0);
-  const Generation& leaves = octree.last();
-  std::size_t leaf = 0;
-  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
-  {
-    while (leaf < leaves.size() && leaves.code[leaf] < shell.cells[cell])
-    {
-      ++leaf;
-    }
-    if (leaf < leaves.size() && leaves.code[leaf] == shell.cells[cell] && leaves.state[leaf] == OctantState::Intersection)
-    {
-      for (int c = 0; c < 8; ++c)
-      {
-        around[shell.cellCorners[cell][c]] |= std::uint8_t(1 << c);
-      }
-    }
-  }
-  return around;
 }
 
 /**
@@ -190,16 +192,60 @@ void joinWithinOctant(const LatticeLabels& labels, const LatticePoint& p, std::u
   }
 }
 
+/** For each set of the cells around a point, a bit each: the first of those that meet across faces. */
+struct FirstOfParts
+{
+  std::uint8_t cells[256];
+
+  FirstOfParts()
+  {
+    for (unsigned members = 0; members < 256; ++members)
+    {
+      UnionFind sets(8);
+      for (unsigned n = 0; n < 8; ++n)
+      {
+        for (unsigned step = 1; step < 8; step *= 2)
+        {
+          if ((members >> n & 1) != 0 && (n & step) == 0 && (members >> (n + step) & 1) != 0)
+          {
+            sets.unite(n, n + step);
+          }
+        }
+      }
+      this->cells[members] = 0;
+      for (unsigned n = 0; n < 8; ++n)
+      {
+        this->cells[members] |= std::uint8_t(unsigned((members >> n & 1) != 0 && sets.find(n) == n) << n);
+      }
+    }
+  }
+};
+
 /**
- * Call `meet(location)` for the octants of one state that touch a lattice point; `others`, a bit for each cell around it, are known to have another
- * state. Cells of one parent are looked for once.
+ * Of the cells around a point that are no intersection octants, those that tell of all. Inside and background octants share no point, so that what meets
+ * across faces has one state; and in that state it has been joined, unless some of it is refuted or an octree has no octant there.
+ */
+std::uint8_t tellingCells(std::uint8_t intersection)
+{
+  static const FirstOfParts first;
+  return first.cells[std::uint8_t(~intersection)];
+}
+
+bool isWhole(const Octree& octree)
+{
+  return octree.generations[std::size_t(octree.treeGeneration)].size() == std::size_t(1) << 3 * octree.treeGeneration;
+}
+
+/**
+ * Call `meet(location)` for the octants of one state that touch a lattice point, of those in the `asked` cells around it, a bit each. Cells of one parent
+ * are looked for once.
  */
 template <typename Meet>
 void forOctantsAround(
-  CursorsAround& octants, const Octree& octree, std::uint64_t corner, std::uint8_t others, OctantState state, const Meet& meet)
+  CursorsAround& octants, const Octree& octree, std::uint64_t corner, std::uint8_t asked, OctantState state, const Meet& meet)
 {
   const Lattice& lattice = octree.lattice;
-  if (others == 0xff)
+  if (asked == 0)
   {
     return;
   }
@@ -210,7 +256,7 @@ void forOctantsAround(
   unsigned known = 0;
   for (unsigned n = 0; n < 8; ++n)
   {
-    if (others >> n & 1)
+    if ((asked >> n & 1) == 0)
     {
       continue;
     }
@@ -239,7 +285,7 @@ void forOctantsAround(
  * Octants of one state that a field contradicts: the smallest at any of their corners, larger ones, of which a
  * part is still what the octree says, at all of them. Nothing where the labels have no field.
  */
-std::vector<std::uint8_t> refutedOctants(const LatticeLabels& labels, OctantState state)
+std::vector<std::uint8_t> refutedOctants(const LatticeLabels& labels, OctantState state, Execution& execution)
 {
   std::vector<std::uint8_t> refuted;
   if (!labels.field())
@@ -256,48 +302,64 @@ std::vector<std::uint8_t> refutedOctants(const LatticeLabels& labels, OctantStat
   {
     first.push_back(first.empty() ? 0 : first.back() + (&generation - 1)->size());
   }
-  LabelCache cache(labels);
-  forOctants(octree, state,
-    [&](int g, std::size_t i)
+  forOctants(octree, state, execution,
+    [&]
     {
-      const LatticePoint p = lowestCell(octree, g, i);
-      const std::int32_t size = std::int32_t(1) << (octree.lattice.depth - g);
-      int against = 0;
-      for (int n = 0; n < 8; ++n)
+      return [&, cache = LabelCache(labels)](int g, std::size_t i) mutable
       {
-        const LatticePoint o = cornerOffset(n);
-        const LatticePoint q{ p.i + size * o.i, p.j + size * o.j, p.k + size * o.k };
-        against += cache.insideAt(q) != (state == OctantState::Inside);
-      }
-      refuted[first[g] + i] = size == 1 ? against > 0 : against == 8;
+        const LatticePoint p = lowestCell(octree, g, i);
+        const std::int32_t size = std::int32_t(1) << (octree.lattice.depth - g);
+        int against = 0;
+        for (int n = 0; n < 8; ++n)
+        {
+          const LatticePoint o = cornerOffset(n);
+          const LatticePoint q{ p.i + size * o.i, p.j + size * o.j, p.k + size * o.k };
+          against += cache.insideAt(q) != (state == OctantState::Inside);
+        }
+        refuted[first[g] + i] = size == 1 ? against > 0 : against == 8;
+      };
     });
   return refuted;
 }
 
-/** Background octants of several leaf cells with an inside corner of the shell among their points; nothing where the labels have no field. */
-std::vector<std::uint8_t> enteredOctants(const LatticeLabels& labels, const LatticeRegions& regions)
+/** Call `work(corner, cursors)` for every corner of the shell, perhaps side by side, with cursors for the cells around it. */
+template <typename Work>
+void forCorners(const Octree& octree, const CornerShell& shell, Execution& execution, const Work& work)
 {
-  std::vector<std::uint8_t> entered;
+  execution.forRanges(shell.corners.size(), RangeGrain,
+    [&](std::size_t first, std::size_t last)
+    {
+      CursorsAround octants = cursorsAround(octree);
+      for (std::size_t c = first; c < last; ++c)
+      {
+        work(c, octants);
+      }
+    });
+}
+
+/** Background octants of several leaf cells with an inside corner of the shell among their points; nothing where the labels have no field. */
+std::vector<std::atomic<std::uint8_t>> enteredOctants(const LatticeLabels& labels, const LatticeRegions& regions, Execution& execution)
+{
+  std::vector<std::atomic<std::uint8_t>> entered(labels.field() ? regions.octants() : 0);
   if (!labels.field())
   {
     return entered;
   }
-  entered.resize(regions.octants(), 0);
-  CursorsAround octants = cursorsAround(labels.octree());
-  for (std::size_t c = 0; c < labels.shell().corners.size(); ++c)
-  {
-    if (labels.inside()[c])
+  forCorners(labels.octree(), labels.shell(), execution,
+    [&](std::size_t c, CursorsAround& octants)
     {
-      forOctantsAround(octants, labels.octree(), labels.shell().corners[c], 0, OctantState::Background,
-        [&](const Octree::Location& at)
-        {
-          if (at.generation < labels.octree().lattice.depth)
+      if (labels.inside()[c])
+      {
+        forOctantsAround(octants, labels.octree(), labels.shell().corners[c], 0xff, OctantState::Background,
+          [&](const Octree::Location& at)
           {
-            entered[regions.place(at.generation, at.index)] = 1;
-          }
-        });
-    }
-  }
+            if (at.generation < labels.octree().lattice.depth)
+            {
+              entered[regions.place(at.generation, at.index)].store(1, std::memory_order_relaxed);
+            }
+          });
+      }
+    });
   return entered;
 }
 
@@ -336,100 +398,107 @@ struct CornerJoints
   }
 };
 
-void joinCorners(const LatticeLabels& labels, bool inside, LatticeRegions& regions)
+void joinCorners(const LatticeLabels& labels, bool inside, LatticeRegions& regions, Execution& execution)
 {
   static const CornerJoints along[2] = { CornerJoints(false), CornerJoints(true) };
   const auto& lowest = along[inside].lowest;
-  for (const auto& corners : labels.shell().cellCorners)
-  {
-    unsigned members = 0;
-    for (int c = 0; c < 8; ++c)
+  const auto& cells = labels.shell().cellCorners;
+  execution.forRanges(cells.size(), RangeGrain,
+    [&](std::size_t first, std::size_t last)
     {
-      members |= unsigned((labels.inside()[corners[c]] != 0) == inside) << c;
-    }
-    for (int c = 1; c < 8; ++c)
-    {
-      if (lowest[members][c] != c)
+      for (std::size_t cell = first; cell < last; ++cell)
       {
-        regions.sets.unite(corners[lowest[members][c]], corners[c]);
+        const auto& corners = cells[cell];
+        unsigned members = 0;
+        for (int c = 0; c < 8; ++c)
+        {
+          members |= unsigned((labels.inside()[corners[c]] != 0) == inside) << c;
+        }
+        for (int c = 1; c < 8; ++c)
+        {
+          if (lowest[members][c] != c)
+          {
+            regions.sets.unite(corners[lowest[members][c]], corners[c]);
+          }
+        }
       }
-    }
-  }
+    });
 }
 
 } // namespace
 
-LatticeRegions connectRegions(const LatticeLabels& labels, bool inside)
+LatticeRegions connectRegions(const LatticeLabels& labels, bool inside, Execution& execution)
 {
   const Octree& octree = labels.octree();
   const auto& shell = labels.shell();
   const OctantState state = inside ? OctantState::Inside : OctantState::Background;
-  LatticeRegions regions = emptyRegions(octree, shell.corners.size());
-  const std::vector<std::uint8_t> refuted = refutedOctants(labels, state);
-  const std::vector<std::uint8_t> entered = inside ? std::vector<std::uint8_t>() : enteredOctants(labels, regions);
-  joinOctants(octree, state, !inside, refuted, regions);
-  joinCorners(labels, inside, regions);
-  CursorsAround octants = cursorsAround(octree);
-  const std::vector<std::uint8_t> around = intersectionAround(octree, shell);
-  for (std::size_t c = 0; c < shell.corners.size(); ++c)
-  {
-    const LatticePoint p = fromMorton(shell.corners[c]);
-    if (!inside && octree.lattice.onBorder(p))
+  LatticeRegions regions = emptyRegions(octree, shell.corners.size(), execution);
+  const std::vector<std::uint8_t> refuted = refutedOctants(labels, state, execution);
+  const auto entered =
+    inside ? std::vector<std::atomic<std::uint8_t>>() : enteredOctants(labels, regions, execution);
+  joinOctants(octree, state, !inside, refuted, regions, execution);
+  joinCorners(labels, inside, regions, execution);
+  const std::vector<std::uint8_t> around = intersectionAround(octree, shell, execution);
+  const bool someTell = isWhole(octree) && refuted.empty();
+  forCorners(octree, shell, execution,
+    [&](std::size_t c, CursorsAround& octants)
     {
-      regions.sets.unite(std::uint32_t(c), regions.beyond);
-    }
-    if ((labels.inside()[c] != 0) == inside)
-    {
-      forOctantsAround(octants, octree, shell.corners[c], around[c], state,
-        [&](const Octree::Location& at)
-        {
-          const std::uint32_t octant = regions.octant(at.generation, at.index);
-          const std::size_t place = regions.place(at.generation, at.index);
-          if (!entered.empty() && entered[place])
-          {
-            joinWithinOctant(labels, p, std::uint32_t(c), octant, lowestCell(octree, at.generation, at.index),
-              std::int32_t(1) << (octree.lattice.depth - at.generation), regions);
-          }
-          else if (refuted.empty() || !refuted[place])
-          {
-            regions.sets.unite(std::uint32_t(c), octant);
-          }
-        });
-    }
-  }
-  return regions;
-}
-
-LatticeRegions connectWideOutside(const LatticeLabels& labels, int width)
-{
-  const Octree& octree = labels.octree();
-  LatticeRegions regions = emptyRegions(octree, labels.shell().corners.size());
-  std::vector<std::uint8_t> left = refutedOctants(labels, OctantState::Background);
-  left.resize(regions.octants(), 0);
-  forOctants(octree, OctantState::Background,
-    [&](int g, std::size_t i)
-    {
-      if (octree.lattice.cells() >> g < width)
+      const LatticePoint p = fromMorton(shell.corners[c]);
+      if (!inside && octree.lattice.onBorder(p))
       {
-        left[regions.place(g, i)] = 1;
+        regions.sets.unite(std::uint32_t(c), regions.beyond);
+      }
+      if ((labels.inside()[c] != 0) == inside)
+      {
+        const std::uint8_t asked = someTell ? tellingCells(around[c]) : std::uint8_t(~around[c]);
+        forOctantsAround(octants, octree, shell.corners[c], asked, state,
+          [&](const Octree::Location& at)
+          {
+            const std::uint32_t octant = regions.octant(at.generation, at.index);
+            const std::size_t place = regions.place(at.generation, at.index);
+            if (!entered.empty() && entered[place].load(std::memory_order_relaxed) != 0)
+            {
+              joinWithinOctant(labels, p, std::uint32_t(c), octant, lowestCell(octree, at.generation, at.index),
+                std::int32_t(1) << (octree.lattice.depth - at.generation), regions);
+            }
+            else if (refuted.empty() || !refuted[place])
+            {
+              regions.sets.unite(std::uint32_t(c), octant);
+            }
+          });
       }
     });
-  joinOctants(octree, OctantState::Background, true, left, regions);
   return regions;
 }
 
-std::uint64_t fillCavities(LatticeLabels& labels)
+LatticeRegions connectWideOutside(const LatticeLabels& labels, int width, std::size_t others, Execution& execution)
 {
   const Octree& octree = labels.octree();
-  LatticeRegions regions = connectRegions(labels, false);
+  LatticeRegions regions = emptyRegions(octree, others, execution);
+  std::vector<std::uint8_t> left = refutedOctants(labels, OctantState::Background, execution);
+  left.resize(regions.octants(), 0);
+  for (int g = octree.treeGeneration; g <= octree.lattice.depth; ++g)
+  {
+    if (octree.lattice.cells() >> g < width)
+    {
+      std::fill_n(left.begin() + std::ptrdiff_t(regions.place(g, 0)), octree.generations[g].size(), std::uint8_t(1));
+    }
+  }
+  joinOctants(octree, OctantState::Background, true, left, regions, execution);
+  return regions;
+}
+
+std::uint64_t fillCavities(LatticeLabels& labels, Execution& execution)
+{
+  LatticeRegions regions = connectRegions(labels, false, execution);
   const std::uint32_t beyond = regions.sets.find(regions.beyond);
   std::set<std::uint32_t> cavities;
+  // A cavity's least member is a corner, as it has some and they come before all octants.
   for (std::size_t c = 0; c < labels.inside().size(); ++c)
   {
-    const std::uint32_t region = regions.sets.find(std::uint32_t(c));
-    if (!labels.inside()[c] && region != beyond)
+    if (!labels.inside()[c] && c != beyond && regions.sets.find(std::uint32_t(c)) == c)
     {
-      cavities.insert(region);
+      cavities.insert(std::uint32_t(c));
     }
   }
   if (cavities.empty())
@@ -443,89 +512,96 @@ std::uint64_t fillCavities(LatticeLabels& labels)
       labels.setInside(c);
     }
   }
-  forOctants(octree, OctantState::Background,
-    [&](int g, std::size_t i)
-    {
-      if (cavities.count(regions.sets.find(regions.octant(g, i))))
-      {
-        labels.fillOctant(g, i);
-      }
-    });
+  forOctantsOf(labels.octree(), OctantState::Background, cavities, regions,
+    [&](int g, std::size_t i) { labels.fillOctant(g, i); });
   return cavities.size();
 }
 
-std::uint64_t dropUnsupported(LatticeLabels& labels)
+std::uint64_t dropUnsupported(LatticeLabels& labels, Execution& execution)
 {
-  const Octree& octree = labels.octree();
-  LatticeRegions regions = connectRegions(labels, true);
-  std::set<std::uint32_t> supported;
+  LatticeRegions regions = connectRegions(labels, true, execution);
   const auto& shell = labels.shell();
-  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
+  std::set<std::uint32_t> unsupported;
+  for (std::size_t c = 0; c < shell.corners.size(); ++c)
+  {
+    if (labels.inside()[c] && regions.sets.find(std::uint32_t(c)) == c)
+    {
+      unsupported.insert(std::uint32_t(c));
+    }
+  }
+  for (std::size_t cell = 0; cell < shell.cells.size() && !unsupported.empty(); ++cell)
   {
     for (const std::uint32_t corner : shell.cellCorners[cell])
     {
       if (labels.isSurvivor(cell) && labels.inside()[corner])
       {
-        supported.insert(regions.sets.find(corner));
+        unsupported.erase(regions.sets.find(corner));
       }
     }
   }
-  forOctants(octree, OctantState::Inside,
-    [&](int g, std::size_t i) { supported.insert(regions.sets.find(regions.octant(g, i))); });
-  std::set<std::uint32_t> dropped;
-  for (std::size_t c = 0; c < shell.corners.size(); ++c)
+  if (!unsupported.empty())
   {
-    const std::uint32_t region = regions.sets.find(std::uint32_t(c));
-    if (labels.inside()[c] && !supported.count(region))
-    {
-      dropped.insert(region);
-    }
+    const std::set<std::uint32_t> left = unsupported;
+    forOctantsOf(labels.octree(), OctantState::Inside, left, regions,
+      [&](int g, std::size_t i) { unsupported.erase(regions.sets.find(regions.octant(g, i))); });
   }
-  for (std::size_t c = 0; c < shell.corners.size() && !dropped.empty(); ++c)
+  for (std::size_t c = 0; c < shell.corners.size() && !unsupported.empty(); ++c)
   {
-    if (labels.inside()[c] && dropped.count(regions.sets.find(std::uint32_t(c))))
+    if (labels.inside()[c] && unsupported.count(regions.sets.find(std::uint32_t(c))))
     {
       labels.setOutside(c);
     }
   }
-  return dropped.size();
+  return unsupported.size();
 }
 
-LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell)
+LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell, Execution& execution)
 {
-  LatticeRegions regions = emptyRegions(octree, shell.corners.size());
-  joinOctants(octree, OctantState::Inside, false, {}, regions);
-  for (const auto& corners : shell.cellCorners)
-  {
-    for (const std::uint32_t corner : corners)
+  LatticeRegions regions = emptyRegions(octree, shell.corners.size(), execution);
+  joinOctants(octree, OctantState::Inside, false, {}, regions, execution);
+  execution.forRanges(shell.cellCorners.size(), RangeGrain,
+    [&](std::size_t first, std::size_t last)
     {
-      regions.sets.unite(corners[0], corner);
-    }
-  }
-  CursorsAround octants = cursorsAround(octree);
-  const std::vector<std::uint8_t> around = intersectionAround(octree, shell);
-  for (std::size_t c = 0; c < shell.corners.size(); ++c)
-  {
-    forOctantsAround(octants, octree, shell.corners[c], around[c], OctantState::Inside,
-      [&](const Octree::Location& at)
-      { regions.sets.unite(std::uint32_t(c), regions.octant(at.generation, at.index)); });
-  }
+      for (std::size_t cell = first; cell < last; ++cell)
+      {
+        for (const std::uint32_t corner : shell.cellCorners[cell])
+        {
+          regions.sets.unite(shell.cellCorners[cell][0], corner);
+        }
+      }
+    });
+  const std::vector<std::uint8_t> around = intersectionAround(octree, shell, execution);
+  const bool someTell = isWhole(octree);
+  forCorners(octree, shell, execution,
+    [&](std::size_t c, CursorsAround& octants)
+    {
+      const std::uint8_t asked = someTell ? tellingCells(around[c]) : std::uint8_t(~around[c]);
+      forOctantsAround(octants, octree, shell.corners[c], asked, OctantState::Inside,
+        [&](const Octree::Location& at) { regions.sets.unite(std::uint32_t(c), regions.octant(at.generation, at.index)); });
+    });
   return regions;
 }
 
 std::uint64_t countSurvivorComponents(const Octree& octree, Execution& execution)
 {
   const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
-  LatticeRegions regions = connectSurvivors(octree, shell);
-  std::set<std::uint32_t> components;
-  for (std::size_t c = 0; c < shell.corners.size(); ++c)
+  LatticeRegions regions = connectSurvivors(octree, shell, execution);
+  std::uint64_t components = 0;
+  for (std::uint32_t c = 0; c < shell.corners.size(); ++c)
   {
-    components.insert(regions.sets.find(std::uint32_t(c)));
+    components += regions.sets.find(c) == c;
   }
-  forOctants(octree, OctantState::Inside,
-    [&](int g, std::size_t i)
-    { components.insert(regions.sets.find(regions.octant(g, i))); });
-  return components.size();
+  Execution alone;
+  forOctants(octree, OctantState::Inside, alone,
+    [&]
+    {
+      return [&](int g, std::size_t i)
+      {
+        const std::uint32_t octant = regions.octant(g, i);
+        components += regions.sets.find(octant) == octant;
+      };
+    });
+  return components;
 }
 
 } // namespace silhouette

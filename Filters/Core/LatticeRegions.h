@@ -6,16 +6,16 @@
  */
 #pragma once
 
+#include "ConcurrentUnionFind.h"
 #include "LatticeLabels.h"
-#include "UnionFind.h"
 
 namespace silhouette
 {
 
-/** Sets over the shell's corners, then all octants of the octree, then the world beyond the root cube. */
+/** Sets over the shell's corners (or whatever comes first), then all octants of the octree, then the world beyond the root cube. */
 struct LatticeRegions
 {
-  UnionFind sets;
+  ConcurrentUnionFind sets;
   std::vector<std::size_t> firstOctant; ///< number of the first octant of each generation
   std::uint32_t beyond = 0;             ///< the world beyond the root cube
 
@@ -31,19 +31,22 @@ struct LatticeRegions
 };
 
 /** Regions of the corners with the given label. Numbers of corners and octants with the other label are alone. */
-LatticeRegions connectRegions(const LatticeLabels& labels, bool inside);
+LatticeRegions connectRegions(const LatticeLabels& labels, bool inside, Execution& execution);
 
-/** Regions of the background octants that are at least `width` leaf octants wide, and of the world beyond; nothing else is joined. */
-LatticeRegions connectWideOutside(const LatticeLabels& labels, int width);
+/**
+ * Regions of the background octants that are at least `width` leaf octants wide, and of the world beyond; nothing else is joined. `others` numbers come
+ * before the octants', for the caller to join.
+ */
+LatticeRegions connectWideOutside(const LatticeLabels& labels, int width, std::size_t others, Execution& execution);
 
 /** Label the cavities, outside regions that do not reach the world beyond, inside; returns their number. */
-std::uint64_t fillCavities(LatticeLabels& labels);
+std::uint64_t fillCavities(LatticeLabels& labels, Execution& execution);
 
 /** Label inside regions that hold neither a corner of a survivor nor an inside octant outside; returns their number. */
-std::uint64_t dropUnsupported(LatticeLabels& labels);
+std::uint64_t dropUnsupported(LatticeLabels& labels, Execution& execution);
 
 /** Sets of the survivors that touch (26-neighbourhood), each with its corners; `shell` is that of the intersection octants. */
-LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell);
+LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell, Execution& execution);
 
 /** Number of components of the last generation's and all inside octants in the 26-neighbourhood. */
 std::uint64_t countSurvivorComponents(const Octree& octree, Execution& execution);

@@ -167,10 +167,10 @@ struct Survivors
   std::vector<std::uint64_t> bridgePoints;
 
   /** `intersection` is the shell of the octree's intersection octants. */
-  Survivors(const Octree& carved, CornerShell intersection, int bridgeGap)
+  Survivors(const Octree& carved, CornerShell intersection, int bridgeGap, Execution& execution)
     : octree(carved)
     , shell(std::move(intersection))
-    , bridges(bridgeSurvivors(carved, this->shell, bridgeGap))
+    , bridges(bridgeSurvivors(carved, this->shell, bridgeGap, execution))
   {
     for (const auto& bridge : this->bridges)
     {
@@ -302,10 +302,10 @@ void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const 
   const CornerShell& shell = extended ? *extended : labels.shell();
   const std::vector<std::uint8_t> inside = labelsOf(labels, shell, execution);
   execution.checkpoint(0.2);
-  const LatticeSurface contoured = contour(shell, inside, execution);
+  LatticeSurface contoured = contour(shell, inside, execution);
   const std::vector<double> fractions = place.fractions(shell, contoured, execution);
   execution.checkpoint(0.4);
-  surface.mesh = placePoints(lattice, shell, contoured, fractions, options.singlePrecision);
+  surface.mesh = placePoints(lattice, shell, contoured, fractions, options.singlePrecision, execution);
   Phase separating(execution, 0.4, 0.5);
   surface.movedToMiddle =
     removeCellIntersections(lattice, shell, contoured, options.singlePrecision, surface.mesh, separating);
@@ -351,7 +351,7 @@ std::uint64_t countComponents(const Mesh& mesh)
 bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const SurfaceCrossings& crossings,
   const PreparedViews* views, const LocalHullOptions& options, LocalHullSurface& surface, Execution& execution)
 {
-  surface.cavitiesFilled += options.fillCavities ? fillCavities(labels) : 0;
+  surface.cavitiesFilled += options.fillCavities ? fillCavities(labels, execution) : 0;
   execution.checkpoint(0.1);
   std::optional<LatticeViews> latticeViews;
   std::optional<CornerDepth> depth; // a field tells how far outside a corner is, votes do not
@@ -364,7 +364,7 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
     depth.emplace(*latticeViews, labels.octree().backgroundVotes, CoverReach);
   }
   CoveringResult covering = coverSurvivors(
-    labels, survivors.bridges, loopSteps(labels.octree().lattice, options.handles), depth ? &*depth : nullptr);
+    labels, survivors.bridges, loopSteps(labels.octree().lattice, options.handles), depth ? &*depth : nullptr, execution);
   surface.coveredOctants = covering.coveredCells.size();
   surface.coveringCorners = covering.coveringCorners.size();
   execution.checkpoint(0.3);
@@ -375,7 +375,7 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
   std::sort(added.begin(), added.end());
   if (options.fillCavities && (covering.mayEnclose || !mended.empty()))
   {
-    surface.cavitiesFilled += fillCavities(labels);
+    surface.cavitiesFilled += fillCavities(labels, execution);
   }
   execution.checkpoint(0.4);
   const CrossingPlacer place(labels, crossings, views, added, options.coverOffset);
@@ -406,10 +406,10 @@ LocalHullSurface uncorrectedSurface(
   const Mesh& imperfect, const Octree& octree, const LocalHullOptions& options, Execution& execution)
 {
   LocalHullSurface surface;
-  const Survivors survivors(octree, intersectionShell(octree, execution), options.bridgeGap);
+  const Survivors survivors(octree, intersectionShell(octree, execution), options.bridgeGap, execution);
   survivors.count(surface);
   execution.checkpoint(0.4);
-  const SurfaceCrossings crossings = locateCrossings(imperfect, octree.lattice);
+  const SurfaceCrossings crossings = locateCrossings(imperfect, octree.lattice, CrossingSides::Located, execution);
   surface.ignoredPoints = crossings.ignoredPoints;
   LatticeLabels labels(octree, extendedShell(survivors.shell, survivors.bridgePoints, execution), crossings);
   Phase finishing(execution, 0.5, 1.0);
@@ -445,11 +445,12 @@ LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& carved, cons
     shell = intersectionShell(*kept, execution);
   }
   const Octree& octree = kept ? *kept : carved;
-  const Survivors survivors(octree, std::move(shell), options.bridgeGap);
+  const Survivors survivors(octree, std::move(shell), options.bridgeGap, execution);
   survivors.count(surface);
   LatticeLabels labels = correctedLabels(octree, survivors.shell, survivors.bridgePoints, views, capture, execution);
   execution.checkpoint(0.6);
-  const SurfaceCrossings crossings = locateCrossings(capture.surface ? *capture.surface : imperfect, octree.lattice);
+  const SurfaceCrossings crossings =
+    locateCrossings(capture.surface ? *capture.surface : imperfect, octree.lattice, CrossingSides::NotLocated, execution);
   surface.ignoredPoints = crossings.ignoredPoints;
   Phase finishing(execution, 0.6, 0.9);
   if (coverAndContour(labels, survivors, crossings, capture.repaired ? &*capture.repaired : &views, options, surface, finishing))
@@ -535,7 +536,7 @@ std::vector<LocalHull> classifyLocalHulls(const Mesh& imperfect, const Octree& o
   }
   CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
   const LatticeLabels labels = views ? LatticeLabels(octree, std::move(shell), *views, execution)
-                                     : LatticeLabels(octree, std::move(shell), locateCrossings(imperfect, octree.lattice));
+                                     : LatticeLabels(octree, std::move(shell), locateCrossings(imperfect, octree.lattice, CrossingSides::Located, execution));
   return localHulls(imperfect, labels, options.hulls, execution);
 }
 

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutlineRendering.h"
 
+#include "Bits.h"
+#include "BoxTree.h"
 #include "Error.h"
 #include "MeshCheck.h"
 #include "SilhouetteRendering.h"
+#include "Vectorised.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
+#include <mutex>
+#include <utility>
 
 namespace silhouette
 {
@@ -17,16 +23,8 @@ namespace
 {
 
 constexpr std::size_t MostKept = std::size_t(1) << 24; ///< pixels: memory for larger images is given back
+constexpr std::size_t Grain = 8192; ///< triangles worth a thread
 constexpr double NearShare = 1e-6; ///< of the greatest w: nearer points are renderSilhouette()'s to cut off
-
-/** One directed edge of a triangle, kept at its lower end. */
-struct HalfEdge
-{
-  std::int32_t to;
-  std::uint32_t triangle;
-  bool forwards;
-  bool used;
-};
 
 /** Where outlines enter and leave the covered part of each row. */
 class Windings
@@ -113,110 +111,316 @@ private:
   std::vector<std::int16_t>& Steps; ///< all 0 before and after
 };
 
-} // namespace
-
-OutlineRenderer::OutlineRenderer(const Mesh& mesh)
-  : TheMesh(mesh)
+Vector3 homogeneousPixel(const Projection& projection, const Vector3& point)
 {
-  checkMesh(mesh);
-  const auto none = std::uint32_t(mesh.triangles.size());
-  std::vector<std::uint32_t> first(mesh.points.size() + 1, 0);
-  for (const Triangle& t : mesh.triangles)
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      ++first[std::size_t(std::min(t[c], t[(c + 1) % 3])) + 1];
-    }
-  }
-  for (std::size_t p = 1; p < first.size(); ++p)
-  {
-    first[p] += first[p - 1];
-  }
-  std::vector<HalfEdge> halves(3 * mesh.triangles.size());
-  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-  this->Planes.reserve(mesh.triangles.size());
-  this->Edges.reserve(halves.size() / 2);
-  for (std::uint32_t n = 0; n < none; ++n)
-  {
-    const Triangle& t = mesh.triangles[n];
-    for (int c = 0; c < 3; ++c)
-    {
-      const std::int32_t a = t[c], b = t[(c + 1) % 3];
-      halves[next[std::size_t(std::min(a, b))]++] = { std::max(a, b), n, a < b, false };
-    }
-    const auto& a = mesh.points[t[0]];
-    const Eigen::Vector3d normal = (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a);
-    this->Planes.push_back({ normal[0], normal[1], normal[2], normal.dot(a) });
-  }
-  for (std::size_t p = 0; p + 1 < first.size(); ++p)
-  {
-    for (std::uint32_t n = first[p]; n < first[p + 1]; ++n)
-    {
-      HalfEdge& half = halves[n];
-      if (half.used)
-      {
-        continue;
-      }
-      Edge edge{ std::int32_t(p), half.to, half.forwards ? half.triangle : none, half.forwards ? none : half.triangle };
-      for (std::uint32_t m = n + 1; m < first[p + 1]; ++m)
-      {
-        HalfEdge& other = halves[m];
-        if (!other.used && other.to == half.to && other.forwards != half.forwards)
-        {
-          (other.forwards ? edge.forwards : edge.backwards) = other.triangle;
-          other.used = true;
-          break;
-        }
-      }
-      this->Edges.push_back(edge);
-    }
-  }
+  return projection.leftCols<3>() * point + projection.col(3);
 }
 
-BinaryImage OutlineRenderer::render(const Projection& projection, int width, int height) const
+/** Are all points in front of the camera and not near its plane? Throws for one that does not project to finite numbers. */
+bool arePointsInFront(const Mesh& mesh, const Projection& projection)
 {
-  if (width < 1 || height < 1)
-  {
-    throw InvalidInput("an image of " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
-  }
   double least = 1.0, greatest = -1.0;
-  std::vector<Vector2> points(this->TheMesh.points.size());
-  for (std::size_t n = 0; n < points.size(); ++n)
+  for (std::size_t n = 0; n < mesh.points.size(); ++n)
   {
-    const Vector3 h = projection.leftCols<3>() * this->TheMesh.points[n] + projection.col(3);
+    const Vector3 h = homogeneousPixel(projection, mesh.points[n]);
     if (!h.allFinite())
     {
       throw InvalidInput("point " + std::to_string(n) + " does not project to finite numbers");
     }
     least = n == 0 ? h[2] : std::min(least, h[2]);
     greatest = n == 0 ? h[2] : std::max(greatest, h[2]);
-    points[n] = { h[0] / h[2], h[1] / h[2] };
   }
-  if (!(least > NearShare * greatest))
+  return least > NearShare * greatest;
+}
+
+/** Do all points project to finite numbers, in front of the camera and not near its plane? As the box around them does; may say false where they do. */
+bool isBoxInFront(const Box& box, const Projection& projection)
+{
+  double least = 0.0, greatest = 0.0;
+  for (int n = 0; n < 8; ++n)
   {
-    return renderSilhouette(this->TheMesh, projection, width, height);
-  }
-  // A triangle faces the camera as the determinant of its homogeneous corners says: linear in its plane, with factors
-  // that are defined for a camera at infinity too.
-  const Eigen::Matrix3d m = projection.leftCols<3>();
-  const Vector3 r0 = m.row(0), r1 = m.row(1), r2 = m.row(2);
-  const Vector3 q = r1.cross(r2) * projection(0, 3) + r2.cross(r0) * projection(1, 3) + r0.cross(r1) * projection(2, 3);
-  const double determinant = r0.dot(r1.cross(r2));
-  std::vector<std::uint8_t> faces(this->Planes.size() + 1, 0);
-  for (std::size_t t = 0; t < this->Planes.size(); ++t)
-  {
-    const auto& plane = this->Planes[t];
-    faces[t] = q[0] * plane[0] + q[1] * plane[1] + q[2] * plane[2] + determinant * plane[3] > 0.0;
-  }
-  BinaryImage image{ width, height, std::vector<std::uint8_t>(std::size_t(width) * height, 0) };
-  Windings windings(width, height);
-  for (const Edge& edge : this->Edges)
-  {
-    const int sign = int(faces[edge.forwards]) - int(faces[edge.backwards]);
-    if (sign != 0)
+    const Vector3 h = homogeneousPixel(projection, box.corner(Box::CornerType(n)));
+    if (!h.allFinite())
     {
-      windings.add(points[edge.from], points[edge.to], sign);
+      return false;
     }
+    least = n == 0 ? h[2] : std::min(least, h[2]);
+    greatest = n == 0 ? h[2] : std::max(greatest, h[2]);
+  }
+  return least > 2.0 * NearShare * greatest; // twice: for rounding
+}
+
+constexpr std::size_t MostTogether = 64; ///< cameras, a bit each
+
+/**
+ * A triangle faces a camera as the determinant of its homogeneous corners says: linear in its plane (normal, and its product with a corner), with factors
+ * that are defined for a camera at infinity too.
+ */
+struct Facing
+{
+  std::size_t count;
+  double factors[4][MostTogether] = {};
+  std::uint64_t bit[MostTogether] = {};
+
+  Facing(const ImageCamera* cameras, std::size_t n)
+    : count(n)
+  {
+    for (std::size_t c = 0; c < n; ++c)
+    {
+      const Projection& projection = cameras[c].projection;
+      const Eigen::Matrix3d m = projection.leftCols<3>();
+      const Vector3 r0 = m.row(0), r1 = m.row(1), r2 = m.row(2);
+      const Vector3 q = r1.cross(r2) * projection(0, 3) + r2.cross(r0) * projection(1, 3) + r0.cross(r1) * projection(2, 3);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        this->factors[axis][c] = q[axis];
+      }
+      this->factors[3][c] = r0.dot(r1.cross(r2));
+      this->bit[c] = std::uint64_t(1) << c;
+    }
+  }
+};
+
+/** Bit c where the plane faces camera c. */
+SILHOUETTE_VECTORISED std::uint64_t camerasFaced(const Facing& facing, double x, double y, double z, double offset)
+{
+  std::uint64_t faced = 0;
+  for (std::size_t c = 0; c < facing.count; ++c)
+  {
+    const double side = facing.factors[0][c] * x + facing.factors[1][c] * y + facing.factors[2][c] * z + facing.factors[3][c] * offset;
+    faced |= side > 0.0 ? facing.bit[c] : 0;
+  }
+  return faced;
+}
+
+/** The cameras that each triangle faces; after the last none. */
+std::vector<std::uint64_t> facedByTriangles(const Mesh& mesh, const Facing& facing, Execution& execution)
+{
+  std::vector<std::uint64_t> faced(mesh.triangles.size() + 1, 0);
+  execution.forRanges(mesh.triangles.size(), Grain,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t n = first; n < last; ++n)
+      {
+        const Triangle& t = mesh.triangles[n];
+        const auto& a = mesh.points[t[0]];
+        const Eigen::Vector3d normal = (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a);
+        faced[n] = camerasFaced(facing, normal[0], normal[1], normal[2], normal.dot(a));
+      }
+    });
+  return faced;
+}
+
+/**
+ * Call `worker(from, to, forwards, backwards)` for each edge, perhaps side by side, each range of them by a worker that `makeWorker` makes: the triangle
+ * that goes along it to its later point, and the one that goes back; the number of triangles for none. Of an edge's two directions the one to the later point is remembered; by its earlier point the other
+ * direction finds it. Where more than two triangles meet, who is whose partner is left open: what an edge adds to the windings is what its triangles add
+ * one by one.
+ */
+template <typename MakeWorker>
+void forEdges(const Mesh& mesh, Execution& execution, const MakeWorker& makeWorker)
+{
+  struct Direction
+  {
+    std::int32_t to;
+    std::uint32_t triangle;
+  };
+  const auto none = std::uint32_t(mesh.triangles.size());
+  const auto forDirections = [&](bool forwards, const auto& makeVisit)
+  {
+    execution.forRanges(mesh.triangles.size(), Grain,
+      [&](std::size_t first, std::size_t last)
+      {
+        auto visit = makeVisit();
+        for (std::size_t n = first; n < last; ++n)
+        {
+          for (int c = 0; c < 3; ++c)
+          {
+            const std::int32_t a = mesh.triangles[n][c], b = mesh.triangles[n][(c + 1) % 3];
+            if ((a < b) == forwards)
+            {
+              visit(std::min(a, b), std::max(a, b), std::uint32_t(n));
+            }
+          }
+        }
+      });
+  };
+  std::vector<std::atomic<std::uint32_t>> next(mesh.points.size() + 1);
+  forDirections(true,
+    [&]
+    {
+      return [&](std::int32_t from, std::int32_t, std::uint32_t)
+      { next[std::size_t(from)].fetch_add(1, std::memory_order_relaxed); };
+    });
+  std::vector<std::uint32_t> start(next.size());
+  std::uint32_t count = 0;
+  for (std::size_t p = 0; p < next.size(); ++p)
+  {
+    start[p] = count;
+    count += next[p].load(std::memory_order_relaxed);
+    next[p].store(start[p], std::memory_order_relaxed);
+  }
+  std::vector<Direction> directions(count);
+  forDirections(true,
+    [&]
+    {
+      return [&](std::int32_t from, std::int32_t to, std::uint32_t triangle)
+      { directions[next[std::size_t(from)].fetch_add(1, std::memory_order_relaxed)] = { to, triangle }; };
+    });
+  std::vector<std::atomic<std::uint8_t>> hasPartner(count);
+  forDirections(false,
+    [&]
+    {
+      return [&, worker = makeWorker()](std::int32_t from, std::int32_t to, std::uint32_t triangle) mutable
+      {
+        for (std::uint32_t n = start[std::size_t(from)]; n < start[std::size_t(from) + 1]; ++n)
+        {
+          if (directions[n].to == to && hasPartner[n].exchange(1, std::memory_order_relaxed) == 0)
+          {
+            worker(from, to, directions[n].triangle, triangle);
+            return;
+          }
+        }
+        worker(from, to, none, triangle);
+      };
+    });
+  execution.forRanges(mesh.points.size(), Grain,
+    [&](std::size_t first, std::size_t last)
+    {
+      auto worker = makeWorker();
+      for (std::size_t from = first; from < last; ++from)
+      {
+        for (std::uint32_t n = start[from]; n < start[from + 1]; ++n)
+        {
+          if (hasPartner[n].load(std::memory_order_relaxed) == 0)
+          {
+            worker(std::int32_t(from), directions[n].to, directions[n].triangle, none);
+          }
+        }
+      }
+    });
+}
+
+/** Which edges are outlines, for each of some cameras. They come in any order: windings are sums of whole numbers. */
+struct OutlineCollection
+{
+  using Segments = std::vector<std::vector<OutlineSegment>>; ///< for each camera
+
+  const std::vector<std::uint64_t>& faced; ///< by triangles
+  Segments ofCameras;
+  std::mutex adding;
+
+  OutlineCollection(const std::vector<std::uint64_t>& cameras, std::size_t count)
+    : faced(cameras)
+    , ofCameras(count)
+  {
+  }
+
+  /** Collects for one thread, and hands over at its end. */
+  class Worker
+  {
+  public:
+    explicit Worker(OutlineCollection& all)
+      : All(&all)
+      , Own(all.ofCameras.size())
+    {
+    }
+    Worker(Worker&& other) noexcept
+      : All(std::exchange(other.All, nullptr))
+      , Own(std::move(other.Own))
+    {
+    }
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+    ~Worker()
+    {
+      if (this->All)
+      {
+        const std::lock_guard<std::mutex> lock(this->All->adding);
+        for (std::size_t camera = 0; camera < this->Own.size(); ++camera)
+        {
+          auto& all = this->All->ofCameras[camera];
+          all.insert(all.end(), this->Own[camera].begin(), this->Own[camera].end());
+        }
+      }
+    }
+
+    void operator()(std::int32_t from, std::int32_t to, std::uint32_t forwards, std::uint32_t backwards)
+    {
+      const std::uint64_t along = this->All->faced[forwards];
+      for (std::uint64_t left = along ^ this->All->faced[backwards]; left != 0; left &= left - 1)
+      {
+        const int camera = lowestBit(left);
+        this->Own[std::size_t(camera)].push_back({ from, to, (along >> camera & 1) != 0 ? 1 : -1 });
+      }
+    }
+
+  private:
+    OutlineCollection* All;
+    Segments Own;
+  };
+};
+
+} // namespace
+
+OutlineRenderer::OutlineRenderer(const Mesh& mesh, std::vector<ImageCamera> cameras, Execution& execution)
+  : TheMesh(mesh)
+  , Cameras(std::move(cameras))
+  , InFront(this->Cameras.size(), 1)
+  , Outlines(this->Cameras.size())
+{
+  checkMesh(mesh);
+  this->requireProjectable();
+  for (std::size_t first = 0; first < this->Cameras.size(); first += MostTogether)
+  {
+    this->findOutlines(first, std::min(first + MostTogether, this->Cameras.size()), execution);
+  }
+}
+
+void OutlineRenderer::requireProjectable()
+{
+  Box box;
+  for (const Vector3& p : this->TheMesh.points)
+  {
+    box.extend(p);
+  }
+  for (std::size_t n = 0; n < this->Cameras.size(); ++n)
+  {
+    const ImageCamera& camera = this->Cameras[n];
+    if (camera.width < 1 || camera.height < 1)
+    {
+      throw InvalidInput("an image of " + std::to_string(camera.width) + " x " + std::to_string(camera.height) + " pixels");
+    }
+    this->InFront[n] = box.isEmpty() || isBoxInFront(box, camera.projection) || arePointsInFront(this->TheMesh, camera.projection);
+  }
+}
+
+void OutlineRenderer::findOutlines(std::size_t first, std::size_t last, Execution& execution)
+{
+  const Facing facing(&this->Cameras[first], last - first);
+  const std::vector<std::uint64_t> faced = facedByTriangles(this->TheMesh, facing, execution);
+  OutlineCollection outlines(faced, last - first);
+  forEdges(this->TheMesh, execution, [&] { return OutlineCollection::Worker(outlines); });
+  std::move(outlines.ofCameras.begin(), outlines.ofCameras.end(), this->Outlines.begin() + std::ptrdiff_t(first));
+}
+
+BinaryImage OutlineRenderer::render(std::size_t n) const
+{
+  const ImageCamera& camera = this->Cameras[n];
+  if (this->InFront[n] == 0)
+  {
+    return renderSilhouette(this->TheMesh, camera.projection, camera.width, camera.height);
+  }
+  const auto pixelOf = [&](std::int32_t point)
+  {
+    const Vector3 h = homogeneousPixel(camera.projection, this->TheMesh.points[std::size_t(point)]);
+    return Vector2(h[0] / h[2], h[1] / h[2]);
+  };
+  BinaryImage image{ camera.width, camera.height, std::vector<std::uint8_t>(std::size_t(camera.width) * camera.height, 0) };
+  Windings windings(camera.width, camera.height);
+  for (const OutlineSegment& segment : this->Outlines[n])
+  {
+    windings.add(pixelOf(segment.from), pixelOf(segment.to), segment.sign);
   }
   windings.fill(image);
   return image;

@@ -5,43 +5,56 @@
  */
 #pragma once
 
+#include "Execution.h"
 #include "Mesh.h"
 #include "View.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace silhouette
 {
 
+/** A camera and the size of its image, px. */
+struct ImageCamera
+{
+  Projection projection = Projection::Zero();
+  int width = 0;
+  int height = 0;
+};
+
+/** An edge of an outline, points of the mesh, and by how much it changes the winding of what it is left or right of: 1 or -1. */
+struct OutlineSegment
+{
+  std::int32_t from, to;
+  int sign;
+};
+
 class OutlineRenderer
 {
 public:
   /**
    * `mesh` is not copied and has to outlive this. Throws InvalidInput as renderSilhouette() does. Cost: a few
-   * passes over the triangles.
+   * passes over the triangles, in them a few operations for each triangle and camera; 32 bytes a triangle, which are given back, and the outlines.
    */
-  explicit OutlineRenderer(const Mesh& mesh);
+  OutlineRenderer(const Mesh& mesh, std::vector<ImageCamera> cameras, Execution& execution);
 
+  std::size_t size() const { return this->Cameras.size(); }
   /**
-   * The silhouette as renderSilhouette() makes it, except that a pixel whose centre lies on an outline to within rounding may differ. The
-   * mesh has to be closed and oriented; where some of it lies behind the camera or near its plane, renderSilhouette() is called. Errors as there. Cost:
-   * a few operations for each triangle, the rows that outlines cross, and a pass over the pixels around them.
+   * What the n-th camera sees: the silhouette as renderSilhouette() makes it, except that a pixel whose centre lies on an outline to within rounding may
+   * differ. The mesh has to be closed and oriented; where some of it lies behind the camera or near its plane, renderSilhouette() is called. Cost: the
+   * rows that outlines cross, and a pass over the pixels around them. Several may be rendered at a time.
    */
-  BinaryImage render(const Projection& projection, int width, int height) const;
+  BinaryImage render(std::size_t n) const;
 
 private:
-  /** An edge and the triangles along which it runs forwards and backwards, or the number of triangles for none. */
-  struct Edge
-  {
-    std::int32_t from, to;
-    std::uint32_t forwards, backwards;
-  };
+  void requireProjectable();
+  void findOutlines(std::size_t first, std::size_t last, Execution& execution);
 
   const Mesh& TheMesh;
-  std::vector<Edge> Edges;
-  std::vector<std::array<double, 4>> Planes; ///< of each triangle: normal and its product with a corner
+  std::vector<ImageCamera> Cameras;
+  std::vector<std::uint8_t> InFront; ///< for each camera 1 where all points are in front of it, and not near its plane
+  std::vector<std::vector<OutlineSegment>> Outlines; ///< of each camera
 };
 
 } // namespace silhouette

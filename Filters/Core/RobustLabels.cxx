@@ -14,12 +14,6 @@ namespace silhouette
 namespace
 {
 
-void sortUnique(std::vector<std::uint64_t>& codes)
-{
-  std::sort(codes.begin(), codes.end());
-  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-}
-
 /** Carve the repaired views and make their surface, with as many background votes as before. */
 void carveAgain(const Octree& octree, CorrectedCapture& capture, Execution& execution)
 {
@@ -253,7 +247,7 @@ LatticeLabels correctedLabels(const Octree& octree, const CornerShell& shell, co
     labels = makeLabels(base, extendedShell(wide, {}, execution), used, capture, execution);
   }
   labels.setSurvivors(survivors);
-  dropUnsupported(labels);
+  dropUnsupported(labels, execution);
   return labels;
 }
 

@@ -85,11 +85,6 @@ inline Dissent dissentAt(const LatticeViews& views, const LatticePoint& p)
   return dissent;
 }
 
-inline bool isOfLattice(const LatticePoint& p, std::int32_t cells)
-{
-  return std::min({p.i, p.j, p.k}) >= 0 && std::max({p.i, p.j, p.k}) <= cells;
-}
-
 /** The lattice refined until an octant in the middle of the survivors is a pixel or two. */
 inline Lattice pixelLattice(const LatticeViews& views, const SurvivorBox& box)
 {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SilhouetteRepair.h"
 
+#include "CodeCursor.h"
+#include "ConcurrentUnionFind.h"
 #include "LatticeLabels.h"
+#include "PointBlocks.h"
 #include "SilhouetteDissent.h"
 #include "SilhouetteSpeckles.h"
-#include "UnionFind.h"
 
 #include <algorithm>
 #include <cmath>
@@ -87,12 +89,6 @@ std::vector<std::uint64_t> onceDisputed(const Octree& octree, const LatticeViews
   return corners;
 }
 
-void sortUnique(std::vector<std::uint64_t>& codes)
-{
-  std::sort(codes.begin(), codes.end());
-  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-}
-
 /**
  * The corners that one view alone rejects, as far as steps along lattice edges reach them from the shell; by
  * view, then by code. Breadth-first: a neighbour of one wave belongs to it, to the one before or to the next,
@@ -101,46 +97,24 @@ void sortUnique(std::vector<std::uint64_t>& codes)
 std::vector<Rejected> findRejected(const Octree& octree, const LatticeViews& views, const CornerShell& shell,
                                    std::vector<std::uint16_t>& votes, Execution& execution)
 {
-  const std::int32_t n = views.lattice().cells();
   std::vector<Rejected> rejected;
-  std::vector<std::uint64_t> before, now = shell.corners, next, fresh;
-  bool isFirst = true;
-  for (std::size_t done = 0; !now.empty();)
+  const std::vector<std::uint64_t> first = onceDisputed(octree, views, shell, votes, execution);
+  appendRejected(views, first, rejected, execution);
+  PointBlocks before, now(shell.corners);
+  for (std::size_t done = 0; done < rejected.size();)
   {
     execution.checkpoint(0.0);
-    if (isFirst)
-    {
-      appendRejected(views, onceDisputed(octree, views, shell, votes, execution), rejected, execution);
-      isFirst = false;
-    }
-    else
-    {
-      appendRejected(views, now, rejected, execution);
-    }
-    next.clear();
+    std::vector<std::uint64_t> latest;
     for (; done < rejected.size(); ++done)
     {
-      const LatticePoint p = fromMorton(rejected[done].corner);
-      for (int direction = 0; direction < 6; ++direction)
-      {
-        const int step = direction % 2 == 0 ? -1 : 1;
-        const LatticePoint q = {p.i + (direction / 2 == 0 ? step : 0), p.j + (direction / 2 == 1 ? step : 0),
-                                p.k + (direction / 2 == 2 ? step : 0)};
-        if (isOfLattice(q, n))
-        {
-          next.push_back(mortonCode(q));
-        }
-      }
+      latest.push_back(rejected[done].corner);
     }
-    sortUnique(next);
-    for (const auto* wave : {&before, &now})
-    {
-      fresh.clear();
-      std::set_difference(next.begin(), next.end(), wave->begin(), wave->end(), std::back_inserter(fresh));
-      next.swap(fresh);
-    }
-    before.swap(now);
-    now.swap(next);
+    PointBlocks next = PointBlocks(latest).beside(views.lattice());
+    next.remove(before);
+    next.remove(now);
+    before = std::move(now);
+    now = std::move(next);
+    appendRejected(views, now.points(), rejected, execution);
   }
   std::sort(rejected.begin(), rejected.end(),
             [](const Rejected& a, const Rejected& b)
@@ -175,29 +149,39 @@ bool isDeep(const LatticeViews& views, const Rejected& rejected, double depth)
  * Components of corners of one view each, sorted as findRejected does, that are neighbours along edges or
  * diagonals.
  */
-UnionFind componentsOf(const std::vector<Rejected>& corners)
+ConcurrentUnionFind componentsOf(const std::vector<Rejected>& corners, int views, Execution& execution)
 {
-  UnionFind components(corners.size());
-  for (std::size_t c = 0; c < corners.size(); ++c)
+  std::vector<std::uint64_t> codes;
+  std::vector<std::size_t> start{ 0 }; // of each view's corners
+  for (const Rejected& corner : corners)
   {
-    const LatticePoint p = fromMorton(corners[c].corner);
-    for (int n = 14; n < 27; ++n) // the thirteen neighbours that follow 13, the corner itself
-    {
-      const LatticePoint q = neighbourOf(p, n);
-      if (std::min({q.i, q.j, q.k}) < 0)
-      {
-        continue;
-      }
-      const Rejected wanted{mortonCode(q), corners[c].view};
-      const auto at = std::lower_bound(corners.begin(), corners.end(), wanted,
-                                       [](const Rejected& a, const Rejected& b)
-                                       { return a.view != b.view ? a.view < b.view : a.corner < b.corner; });
-      if (at != corners.end() && at->view == wanted.view && at->corner == wanted.corner)
-      {
-        components.unite(std::uint32_t(c), std::uint32_t(at - corners.begin()));
-      }
-    }
+    start.resize(std::size_t(corner.view) + 1, codes.size());
+    codes.push_back(corner.corner);
   }
+  start.resize(std::size_t(views) + 1, codes.size());
+  ConcurrentUnionFind components(corners.size(), execution);
+  execution.forRanges(corners.size(), 1024,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last;)
+      {
+        const std::size_t begin = start[std::size_t(corners[c].view)], end = start[std::size_t(corners[c].view) + 1];
+        CodeCursor ofView(codes.data() + begin, codes.data() + end);
+        for (; c < std::min(end, last); ++c)
+        {
+          const LatticePoint p = fromMorton(codes[c]);
+          for (int n = 14; n < 27; ++n) // the thirteen neighbours that follow 13, the corner itself
+          {
+            const LatticePoint q = neighbourOf(p, n);
+            const std::ptrdiff_t at = std::min({ q.i, q.j, q.k }) < 0 ? -1 : ofView.find(mortonCode(q));
+            if (at >= 0)
+            {
+              components.unite(std::uint32_t(c), std::uint32_t(begin) + std::uint32_t(at));
+            }
+          }
+        }
+      }
+    });
   return components;
 }
 
@@ -277,7 +261,7 @@ std::vector<std::vector<std::uint64_t>> findBlobs(const Octree& octree, const La
                                [&](const Rejected& c) { return deep[&c - start] == 0; }),
                 corners.end());
 
-  UnionFind components = componentsOf(corners);
+  ConcurrentUnionFind components = componentsOf(corners, views.size(), execution);
   std::vector<std::vector<Rejected>> members(corners.size());
   for (std::size_t c = 0; c < corners.size(); ++c)
   {

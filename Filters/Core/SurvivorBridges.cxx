@@ -16,7 +16,7 @@ namespace
 class BridgeSearch
 {
 public:
-  BridgeSearch(const Octree& octree, const CornerShell& shell, UnionFind& sets)
+  BridgeSearch(const Octree& octree, const CornerShell& shell, ConcurrentUnionFind& sets)
     : TheLattice(octree.lattice)
     , Shell(shell)
     , Sets(sets)
@@ -83,17 +83,30 @@ private:
 
   const Lattice& TheLattice;
   const CornerShell& Shell;
-  UnionFind& Sets;
+  ConcurrentUnionFind& Sets;
 };
 
 } // namespace
 
-std::vector<Bridge> bridgeSurvivors(const Octree& octree, const CornerShell& shell, int gap)
+std::vector<Bridge> bridgeSurvivors(const Octree& octree, const CornerShell& shell, int gap, Execution& execution)
 {
   std::vector<Bridge> bridges;
-  LatticeRegions survivors = connectSurvivors(octree, shell);
+  if (gap <= 0)
+  {
+    return bridges;
+  }
+  LatticeRegions survivors = connectSurvivors(octree, shell, execution);
+  bool several = false;
+  for (std::uint32_t corner = 1; corner < shell.corners.size() && !several; ++corner)
+  {
+    several = survivors.sets.find(corner) == corner;
+  }
+  if (!several)
+  {
+    return bridges;
+  }
   std::map<std::uint32_t, std::vector<std::uint32_t>> byRoot;
-  for (std::uint32_t corner = 0; gap > 0 && corner < shell.corners.size(); ++corner)
+  for (std::uint32_t corner = 0; corner < shell.corners.size(); ++corner)
   {
     byRoot[survivors.sets.find(corner)].push_back(corner);
   }

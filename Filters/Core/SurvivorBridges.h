@@ -20,6 +20,6 @@ using Bridge = std::vector<std::uint64_t>;
  * component first, each to the nearest other one. None touches the root cube's border. `shell` is that of the
  * intersection octants. Cost: the components' corners times the cube of the gap.
  */
-std::vector<Bridge> bridgeSurvivors(const Octree& octree, const CornerShell& shell, int gap);
+std::vector<Bridge> bridgeSurvivors(const Octree& octree, const CornerShell& shell, int gap, Execution& execution);
 
 } // namespace silhouette

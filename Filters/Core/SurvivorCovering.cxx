@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurvivorCovering.h"
 
+#include "BlockBits.h"
+#include "CodeCursor.h"
 #include "LabelCache.h"
 #include "LatticeRegions.h"
 #include "ShellPaths.h"
@@ -8,6 +10,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <iterator>
 #include <tuple>
 
 namespace silhouette
@@ -40,22 +43,78 @@ struct Candidate
   }
 };
 
+/** Some cells of a shell, to be found around a lattice point. */
+class SomeCells
+{
+public:
+  /** `cells` ascending. */
+  SomeCells(const CornerShell& shell, const std::vector<std::uint32_t>& cells)
+    : Cells(cells)
+  {
+    for (std::uint32_t n = 0; n < cells.size(); ++n)
+    {
+      const std::uint64_t code = shell.cells[cells[n]];
+      if (this->Blocks.empty() || this->Blocks.back() != code >> 6)
+      {
+        this->Blocks.push_back(code >> 6);
+        this->Bits.push_back(0);
+        this->First.push_back(n);
+      }
+      this->Bits.back() |= std::uint64_t(1) << (code & 63);
+    }
+  }
+
+  /** Call `work(cell)` for those of the 4 x 4 x 4 cells around a point, in the order of their last, middle and first coordinate. */
+  template <typename Work> void forCellsAround(const LatticePoint& p, const Work& work) const
+  {
+    const LatticePoint lowest{ p.i - BlockSide / 2, p.j - BlockSide / 2, p.k - BlockSide / 2 };
+    const LatticePoint block{ lowest.i >> 2, lowest.j >> 2, lowest.k >> 2 };
+    std::array<std::ptrdiff_t, 8> found;
+    bool any = false;
+    for (int n = 0; n < 8; ++n)
+    {
+      const LatticePoint b = block + cornerOffset(n);
+      found[std::size_t(n)] = std::min({ b.i, b.j, b.k }) < 0 ? -1 : findBlock(this->Blocks, mortonCode(b));
+      any = any || found[std::size_t(n)] >= 0;
+    }
+    for (int n = 0; n < 64 && any; ++n)
+    {
+      const LatticePoint q = lowest + LatticePoint{ n % 4, n / 4 % 4, n / 16 };
+      const LatticePoint within{ (q.i >> 2) - block.i, (q.j >> 2) - block.j, (q.k >> 2) - block.k };
+      const std::ptrdiff_t at = found[std::size_t(mortonCode(within))];
+      const std::uint64_t bit = std::uint64_t(1) << mortonCode({ q.i & 3, q.j & 3, q.k & 3 });
+      if (at >= 0 && (this->Bits[std::size_t(at)] & bit) != 0)
+      {
+        work(this->Cells[this->First[std::size_t(at)] + std::size_t(countBits(this->Bits[std::size_t(at)] & (bit - 1)))]);
+      }
+    }
+  }
+
+private:
+  const std::vector<std::uint32_t>& Cells;
+  std::vector<std::uint64_t> Blocks; ///< Morton codes of blocks with such cells, ascending
+  std::vector<std::uint64_t> Bits;   ///< those of a block
+  std::vector<std::uint32_t> First;  ///< of a block, among the cells
+};
+
 class Covering
 {
 public:
-  Covering(LatticeLabels& labels, int loop, const CornerDepth* depth)
+  Covering(LatticeLabels& labels, int loop, const CornerDepth* depth, Execution& execution)
     : Labels(labels)
     , Cache(labels)
     , Loop(loop)
     , Depth(depth)
-    , Known(depth ? labels.shell().corners.size() : 0, Unknown)
-    , Solid(connectRegions(labels, true))
+    , Supports(depth ? labels.shell().corners.size() : 0, Unknown)
+    , Effects(labels.shell().corners.size(), NotAsked)
+    , Solid(connectRegions(labels, true, execution))
   {
   }
 
-  CoveringResult run(const std::vector<Bridge>& bridges)
+  CoveringResult run(const std::vector<Bridge>& bridges, Execution& execution)
   {
     this->findLost();
+    this->lookAhead(execution);
     this->coverAll();
     this->joinWithinCells();
     this->joinAcrossCorners();
@@ -80,13 +139,15 @@ private:
     {
       return this->Labels.support()[corner];
     }
-    float& known = this->Known[corner];
+    float& known = this->Supports[corner];
     if (known == Unknown)
     {
-      known = float((*this->Depth)(fromMorton(this->shell().corners[corner])));
+      known = this->depthOf(corner);
     }
     return known;
   }
+
+  float depthOf(std::uint32_t corner) const { return float((*this->Depth)(fromMorton(this->shell().corners[corner]))); }
 
   void findLost()
   {
@@ -100,23 +161,93 @@ private:
     this->Result.coveredCells = this->Lost;
   }
 
-  Effect effectOf(const LatticePoint& p)
+  /** What the labels around a corner tell of its effect; `LabelCache` is of whoever asks. */
+  static TopologicalNumbers numbersAt(const LatticePoint& p, LabelCache& cache)
   {
     Neighbourhood labels;
     for (int n = 0; n < 27; ++n)
     {
-      labels[n] = n != 13 && this->Cache.insideAt(neighbourOf(p, n));
+      labels[n] = n != 13 && cache.insideAt(neighbourOf(p, n));
     }
-    const auto numbers = topologicalNumbers(labels);
-    if (isSimple(numbers))
+    return topologicalNumbers(labels);
+  }
+
+  /** The effect as far as it is a matter of the labels around a corner: `Depends` where it is one of components too. */
+  static std::uint8_t localEffect(const TopologicalNumbers& numbers)
+  {
+    const Effect effect = isSimple(numbers) ? Effect::Nothing : numbers.inside == 0 ? Effect::Founds : Effect::Otherwise;
+    return std::uint8_t(effect == Effect::Otherwise && numbers.outside == 1 ? int(Depends) : int(effect));
+  }
+
+  Effect effectOf(std::uint32_t corner)
+  {
+    std::uint8_t& known = this->Effects[corner];
+    if (known < Depends)
     {
-      return Effect::Nothing;
+      return Effect(known);
     }
-    if (numbers.inside == 0)
+    const LatticePoint p = fromMorton(this->shell().corners[corner]);
+    const auto numbers = numbersAt(p, this->Cache);
+    known = localEffect(numbers);
+    return known < Depends ? Effect(known) : this->distinctComponents(p, numbers) ? Effect::Joins : Effect::Otherwise;
+  }
+
+  /**
+   * What the lost cells will ask first, side by side: the effects of their corners on the labels as they are, and the depths of those that are equal.
+   * Decides nothing.
+   */
+  void lookAhead(Execution& execution)
+  {
+    std::vector<std::uint32_t> corners;
+    for (const std::uint32_t cell : this->Lost)
     {
-      return Effect::Founds;
+      for (const std::uint32_t corner : this->shell().cellCorners[cell])
+      {
+        if (this->Effects[corner] == NotAsked && !this->onBorder(corner)) // no corner of a lost cell is inside
+        {
+          this->Effects[corner] = Asked;
+          corners.push_back(corner);
+        }
+      }
     }
-    return numbers.outside == 1 && this->distinctComponents(p, numbers) ? Effect::Joins : Effect::Otherwise;
+    execution.forRanges(corners.size(), 64,
+      [&](std::size_t first, std::size_t last)
+      {
+        LabelCache cache(this->Labels);
+        for (std::size_t n = first; n < last; ++n)
+        {
+          this->Effects[corners[n]] = localEffect(numbersAt(fromMorton(this->shell().corners[corners[n]]), cache));
+        }
+      });
+    if (!this->Depth)
+    {
+      return;
+    }
+    corners.clear();
+    for (const std::uint32_t cell : this->Lost)
+    {
+      const auto& all = this->shell().cellCorners[cell];
+      std::uint8_t least = NotAsked;
+      for (const std::uint32_t corner : all)
+      {
+        least = std::min(least, this->Effects[corner]);
+      }
+      const auto isEqual = [&](std::uint32_t corner) { return this->Effects[corner] == least; };
+      if (least < NotAsked && std::count_if(all.begin(), all.end(), isEqual) > 1)
+      {
+        std::copy_if(all.begin(), all.end(), std::back_inserter(corners), isEqual);
+      }
+    }
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    execution.forRanges(corners.size(), 16,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t n = first; n < last; ++n)
+        {
+          this->Supports[corners[n]] = this->depthOf(corners[n]);
+        }
+      });
   }
 
   /** Do the local components around p belong to as many components of the whole solid? */
@@ -144,23 +275,29 @@ private:
     return this->Labels.octree().lattice.onBorder(fromMorton(this->shell().corners[corner]));
   }
 
-  /** A corner that is not on the border. */
-  Candidate consider(std::uint32_t corner, Effect effect)
+  /** How many octants a corner would cover. */
+  int covers(std::uint32_t corner) const
   {
     std::array<std::uint32_t, 8> cells;
     const int count = this->Labels.cellsAround(fromMorton(this->shell().corners[corner]), cells);
+    return int(
+      std::count_if(cells.begin(), cells.begin() + count, [&](std::uint32_t cell) { return !this->covered(cell); }));
+  }
+
+  /** A corner that is not on the border. */
+  Candidate consider(std::uint32_t corner, Effect effect)
+  {
     Candidate candidate;
     candidate.corner = corner;
     candidate.support = this->support(corner);
     candidate.effect = effect;
-    candidate.covers = int(
-      std::count_if(cells.begin(), cells.begin() + count, [&](std::uint32_t cell) { return !this->covered(cell); }));
+    candidate.covers = this->covers(corner);
     return candidate;
   }
 
   /**
    * The best of a cell's corners that is not inside yet; corner None where there is none or its effect is beyond `most`. Support, which takes
-   * longest, is asked for only among equals.
+   * longest, is asked for only among equals, and what they cover only where that is equal too.
    */
   Candidate best(std::uint32_t cell, Effect most = Effect::Otherwise)
   {
@@ -173,7 +310,7 @@ private:
       {
         continue;
       }
-      const Effect effect = this->effectOf(fromMorton(this->shell().corners[corner]));
+      const Effect effect = this->effectOf(corner);
       if (effect <= least)
       {
         count = effect < least ? 0 : count;
@@ -183,53 +320,60 @@ private:
     }
     Candidate best;
     best.effect = least;
-    best.corner = count == 1 ? equals[0] : best.corner;
-    for (std::size_t n = 0; count > 1 && n < count; ++n)
+    best.corner = count > 0 ? equals[0] : best.corner;
+    best.support = count > 1 ? this->support(best.corner) : best.support;
+    for (std::size_t n = 1; n < count; ++n)
     {
-      const Candidate candidate = this->consider(equals[n], least);
-      best = candidate.rank() < best.rank() ? candidate : best;
+      const std::uint32_t corner = equals[n];
+      const float support = this->support(corner);
+      bool isBetter = support > best.support;
+      if (support == best.support)
+      {
+        const int own = this->covers(corner), others = this->covers(best.corner);
+        isBetter = own > others || (own == others && corner < best.corner);
+      }
+      best.corner = isBetter ? corner : best.corner;
+      best.support = isBetter ? support : best.support;
     }
     return best;
   }
 
-  void add(std::uint32_t corner)
+  /** Label a corner inside, of which the effect is known. */
+  void add(std::uint32_t corner, Effect effect)
   {
     const LatticePoint p = fromMorton(this->shell().corners[corner]);
-    this->Result.mayEnclose = this->Result.mayEnclose || this->effectOf(p) == Effect::Otherwise;
+    this->Result.mayEnclose = this->Result.mayEnclose || effect == Effect::Otherwise;
     this->Labels.setInside(corner);
-    this->Cache.forget(this->shell().corners[corner]);
+    this->Cache.setInside(this->shell().corners[corner]);
     this->Result.coveringCorners.push_back(corner);
-    std::array<std::uint32_t, 8> cells;
-    const int count = this->Labels.cellsAround(p, cells);
-    this->Unsettled.insert(this->Unsettled.end(), cells.begin(), cells.begin() + count);
     for (int n = 0; n < 27; ++n)
     {
       const int differing = (n % 3 != 1) + (n / 3 % 3 != 1) + (n / 9 != 1);
-      const auto other = differing == 1 || differing == 2 ? this->shell().find(mortonCode(neighbourOf(p, n))) : -1;
-      if (other >= 0 && this->inside(std::uint32_t(other)))
+      const auto other = n != 13 ? this->Corners.find(mortonCode(neighbourOf(p, n))) : -1;
+      if (other >= 0)
       {
-        this->Solid.sets.unite(corner, std::uint32_t(other));
+        this->Effects[std::size_t(other)] = NotAsked;
+        if (differing <= 2 && this->inside(std::uint32_t(other)))
+        {
+          this->Solid.sets.unite(corner, std::uint32_t(other));
+        }
       }
     }
   }
 
-  /** Put the uncovered cells around a corner's own cells on the list again. */
-  void revisit(std::uint32_t corner, std::deque<std::uint32_t>& list)
+  /** The same, and its cells may have a second component now. */
+  void addUnsettled(std::uint32_t corner)
   {
-    const LatticePoint p = fromMorton(this->shell().corners[corner]);
-    for (int n = 0; n < 64; ++n)
-    {
-      const auto cell = this->shell().findCell({ p.i + n % 4 - 2, p.j + n / 4 % 4 - 2, p.k + n / 16 - 2 });
-      if (cell >= 0 && this->Labels.isSurvivor(cell) && !this->covered(std::uint32_t(cell)))
-      {
-        list.push_back(std::uint32_t(cell));
-      }
-    }
+    this->add(corner, this->effectOf(corner));
+    std::array<std::uint32_t, 8> cells;
+    const int count = this->Labels.cellsAround(fromMorton(this->shell().corners[corner]), cells);
+    this->Unsettled.insert(this->Unsettled.end(), cells.begin(), cells.begin() + count);
   }
 
   /** Grow from the solid as long as that changes no topology, then found a new component, and so on. */
   void coverAll()
   {
+    const SomeCells lost(this->shell(), this->Lost);
     std::deque<std::uint32_t> list(this->Lost.begin(), this->Lost.end());
     std::size_t next = 0;
     for (;;)
@@ -256,8 +400,16 @@ private:
       const Candidate candidate = this->best(cell, growing ? Effect::Joins : Effect::Otherwise);
       if (!growing || candidate.corner != None)
       {
-        this->add(candidate.corner);
-        this->revisit(candidate.corner, list);
+        this->add(candidate.corner, candidate.effect);
+        // The uncovered cells around the corner's own cells have another choice now.
+        lost.forCellsAround(fromMorton(this->shell().corners[candidate.corner]),
+          [&](std::uint32_t other)
+          {
+            if (!this->covered(other))
+            {
+              list.push_back(other);
+            }
+          });
       }
     }
   }
@@ -275,7 +427,7 @@ private:
     }
     if (count == 2 && inside[0] + inside[1] == 7 && this->component(corners[inside[0]]) != this->component(corners[inside[1]]))
     {
-      this->add(this->best(cell).corner);
+      this->addUnsettled(this->best(cell).corner);
     }
   }
 
@@ -290,7 +442,6 @@ private:
 
   void joinWithinCells()
   {
-    this->Unsettled.clear();
     for (std::uint32_t cell = 0; cell < this->shell().cells.size(); ++cell)
     {
       if (this->Labels.isSurvivor(cell))
@@ -377,7 +528,7 @@ private:
     {
       if (!this->onBorder(corner))
       {
-        apart.push_back(this->consider(corner, this->effectOf(fromMorton(this->shell().corners[corner]))));
+        apart.push_back(this->consider(corner, this->effectOf(corner)));
       }
     }
     std::sort(apart.begin(), apart.end(), [](const Candidate& a, const Candidate& b) { return a.rank() < b.rank(); });
@@ -387,7 +538,7 @@ private:
       const int count = this->Labels.cellsAround(fromMorton(this->shell().corners[candidate.corner]), cells);
       if (!this->inside(candidate.corner) && this->parts(cells, count))
       {
-        this->add(candidate.corner);
+        this->addUnsettled(candidate.corner);
         this->settle();
       }
     }
@@ -433,7 +584,7 @@ private:
         const auto corner = this->shell().find(point);
         if (corner >= 0 && !this->inside(std::uint32_t(corner)))
         {
-          this->add(std::uint32_t(corner));
+          this->addUnsettled(std::uint32_t(corner));
         }
       }
     }
@@ -441,12 +592,20 @@ private:
   }
 
   static constexpr float Unknown = 1.0f; ///< no depth
+  enum : std::uint8_t
+  {
+    Depends = 4,  ///< after all effects
+    Asked = 0xfe, ///< while looking ahead
+    NotAsked = 0xff
+  };
 
   LatticeLabels& Labels;
   LabelCache Cache;
+  CodeCursor Corners{ Labels.shell().corners };
   int Loop;
   const CornerDepth* Depth;
-  std::vector<float> Known; ///< by Depth, of each corner of the shell that it was asked for
+  std::vector<float> Supports;       ///< by Depth, of each corner of the shell that it was asked for
+  std::vector<std::uint8_t> Effects; ///< of each corner, as long as no label around it changes
   LatticeRegions Solid;
   std::vector<std::uint32_t> Lost;
   std::deque<std::uint32_t> Unsettled;
@@ -456,9 +615,9 @@ private:
 } // namespace
 
 CoveringResult coverSurvivors(
-  LatticeLabels& labels, const std::vector<Bridge>& bridges, int loop, const CornerDepth* depth)
+  LatticeLabels& labels, const std::vector<Bridge>& bridges, int loop, const CornerDepth* depth, Execution& execution)
 {
-  return Covering(labels, loop, depth).run(bridges);
+  return Covering(labels, loop, depth, execution).run(bridges, execution);
 }
 
 } // namespace silhouette

@@ -29,6 +29,6 @@ struct CoveringResult
  * solid are not. Cost: linear in the lost octants, and for each bridge the corners within `loop` steps.
  */
 CoveringResult coverSurvivors(
-  LatticeLabels& labels, const std::vector<Bridge>& bridges, int loop, const CornerDepth* depth = nullptr);
+  LatticeLabels& labels, const std::vector<Bridge>& bridges, int loop, const CornerDepth* depth, Execution& execution);
 
 } // namespace silhouette

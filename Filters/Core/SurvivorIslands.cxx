@@ -21,7 +21,7 @@ public:
   {
     const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
     execution.checkpoint(0.5);
-    this->Regions = connectSurvivors(octree, shell);
+    this->Regions = connectSurvivors(octree, shell, execution);
     for (const auto& corners : shell.cellCorners)
     {
       this->ByCell.push_back(this->Regions.sets.find(corners[0]));

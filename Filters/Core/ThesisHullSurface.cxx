@@ -149,7 +149,7 @@ std::vector<LocalHull> thesisHulls(
     return {};
   }
   const auto points = pointsOf(covered, octree.lattice);
-  const SolidRows solid = surfaceRows(locateCrossings(covered, octree.lattice));
+  const SolidRows solid = surfaceRows(locateCrossings(covered, octree.lattice, CrossingSides::NotLocated, execution));
   Phase slicing(execution, 0.0, 0.4);
   const SlicedVolume volume = sliceVolume(octree, cellsBesideSurvivors(points, octree), options.slices, slicing);
   Phase chaining(execution, 0.4, 1.0);
@@ -165,7 +165,7 @@ LocalHullSurface combineLocalHulls(const std::vector<LocalHull>& hulls, const Me
     return result;
   }
   const Lattice& lattice = octree.lattice;
-  const SurfaceCrossings crossings = locateCrossings(covered, lattice);
+  const SurfaceCrossings crossings = locateCrossings(covered, lattice, CrossingSides::NotLocated, execution);
   const auto solid = surfaceRows(crossings, 0);
   requireCovered(octree, solid);
   result.survivors =
@@ -187,7 +187,7 @@ LocalHullSurface combineLocalHulls(const std::vector<LocalHull>& hulls, const Me
   Phase contouring(execution, 0.6, 0.8);
   CombinedSurface combined = contourRows(rows, lattice, contouring);
   dropComponents(solid, options.fillCavities, combined, result);
-  result.mesh = placePoints(lattice, combined.shell, combined.surface, combined.fractions, options.singlePrecision);
+  result.mesh = placePoints(lattice, combined.shell, combined.surface, combined.fractions, options.singlePrecision, execution);
   Phase safety(execution, 0.8, 1.0);
   result.movedToMiddle = removeCellIntersections(
     lattice, combined.shell, combined.surface, options.singlePrecision, result.mesh, safety);

@@ -2,13 +2,15 @@
 #include "ThinHullFitting.h"
 
 #include "BoxTree.h"
+#include "ConcurrentUnionFind.h"
 #include "CoverageNear.h"
+#include "IndicesWhere.h"
 #include "SelfIntersections.h"
-#include "UnionFind.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace silhouette
@@ -128,7 +130,6 @@ public:
     : Thin(thin)
     , TheMesh(mesh)
     , Run(execution)
-    , Original(mesh.points)
     , Number(mesh.points.size(), -1)
   {
     this->aim(solid, reach);
@@ -179,22 +180,17 @@ private:
   {
     const auto& edges = this->Thin.surface.edges;
     const CornerShell& shell = this->Thin.shell;
-    std::vector<std::size_t> candidates;
-    for (std::size_t e = 0; e < edges.size() && reach > 0.0; ++e)
-    {
-      if (std::binary_search(this->Thin.added.begin(), this->Thin.added.end(), shell.corners[edges[e].inside]))
-      {
-        candidates.push_back(e);
-      }
-    }
+    const std::vector<std::int32_t> candidates = indicesWhere(reach > 0.0 ? edges.size() : 0, 4096, this->Run,
+      [&](std::size_t e)
+      { return std::binary_search(this->Thin.added.begin(), this->Thin.added.end(), shell.corners[edges[e].inside]); });
     std::vector<Vector3> moves(candidates.size(), Vector3::Zero());
     this->Run.forRanges(candidates.size(), 16,
       [&](std::size_t first, std::size_t last)
       {
         for (std::size_t n = first; n < last; ++n)
         {
-          const CrossedEdge& edge = edges[candidates[n]];
-          const Vector3 start = this->TheMesh.points[candidates[n]];
+          const CrossedEdge& edge = edges[std::size_t(candidates[n])];
+          const Vector3 start = this->TheMesh.points[std::size_t(candidates[n])];
           Vector3 target;
           if (solid.surfaceBetween(toVector(fromMorton(shell.corners[edge.inside])),
                 toVector(fromMorton(shell.corners[edge.outside])), target) &&
@@ -210,8 +206,10 @@ private:
     {
       if (moves[n] != Vector3::Zero())
       {
-        this->Number[candidates[n]] = std::int32_t(this->Points.size());
-        this->Points.push_back(candidates[n]);
+        const auto point = std::size_t(candidates[n]);
+        this->Number[point] = std::int32_t(this->Points.size());
+        this->Points.push_back(point);
+        this->Original.push_back(this->TheMesh.points[point]);
         this->Moves.push_back(moves[n]);
       }
     }
@@ -220,16 +218,22 @@ private:
     this->Run.checkpoint(0.3);
   }
 
+  /** Where a point of the mesh was before any has moved. */
+  const Vector3& original(std::int32_t point) const
+  {
+    const std::int32_t m = this->Number[std::size_t(point)];
+    return m >= 0 ? this->Original[std::size_t(m)] : this->TheMesh.points[std::size_t(point)];
+  }
+
   void place(std::size_t m)
   {
-    const std::size_t point = this->Points[m];
-    Vector3 p = this->Original[point];
+    Vector3 p = this->Original[m];
     if (this->Scale[m] > 0.0)
     {
       p += this->Scale[m] * this->Moves[m];
       p = this->Thin.singlePrecision ? roundedToFloat(p) : p;
     }
-    this->TheMesh.points[point] = p;
+    this->TheMesh.points[this->Points[m]] = p;
   }
 
   bool withdraw(std::size_t m)
@@ -243,63 +247,46 @@ private:
     return true;
   }
 
-  /** The triangles that may meet a moving one, whatever the scales: a point stays between its two places. */
-  void findNeighbourhood()
+  bool moves(std::size_t t) const
   {
-    const auto& triangles = this->TheMesh.triangles;
-    std::vector<Box> boxes(triangles.size());
-    std::vector<Box>& moving = this->Swept;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-    {
-      bool moves = false;
-      for (const std::int32_t p : triangles[t])
-      {
-        boxes[t].extend(this->Original[p]);
-        if (this->Number[p] >= 0)
-        {
-          boxes[t].extend(this->Original[p] + this->Moves[this->Number[p]]);
-          moves = true;
-        }
-      }
-      if (moves)
-      {
-        const Vector3 slack = Vector3::Constant(1e-3 * this->lattice().leafEdge()); // for rounding
-        moving.emplace_back(boxes[t].min() - slack, boxes[t].max() + slack);
-      }
-    }
-    const BoxTree tree(moving);
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-    {
-      bool near = false;
-      tree.overlapping(boxes[t], [&](std::int32_t) { near = true; });
-      if (near)
-      {
-        this->Near.push_back(std::int32_t(t));
-      }
-    }
-    this->Run.checkpoint(0.4);
+    const Triangle& triangle = this->TheMesh.triangles[t];
+    return std::any_of(triangle.begin(), triangle.end(), [&](std::int32_t p) { return this->Number[std::size_t(p)] >= 0; });
   }
 
-  /** The points that move and the triangles near them, on their own. */
-  Mesh nearMesh() const
+  /** Of all places of a triangle, whatever the scales: a point stays between two. */
+  Box sweptBy(std::size_t t) const
   {
-    std::vector<std::int32_t> number(this->TheMesh.points.size(), -1);
-    Mesh part;
-    for (const std::int32_t t : this->Near)
+    Box box;
+    for (const std::int32_t p : this->TheMesh.triangles[t])
     {
-      Triangle triangle = this->TheMesh.triangles[t];
-      for (std::int32_t& p : triangle)
+      box.extend(this->original(p));
+      if (this->Number[std::size_t(p)] >= 0)
       {
-        if (number[p] < 0)
-        {
-          number[p] = std::int32_t(part.points.size());
-          part.points.push_back(this->TheMesh.points[p]);
-        }
-        p = number[p];
+        box.extend(this->original(p) + this->Moves[std::size_t(this->Number[std::size_t(p)])]);
       }
-      part.triangles.push_back(triangle);
     }
-    return part;
+    return box;
+  }
+
+  /** The triangles that may meet a moving one. */
+  void findNeighbourhood()
+  {
+    const std::size_t count = this->TheMesh.triangles.size();
+    const Vector3 slack = Vector3::Constant(1e-3 * this->lattice().leafEdge()); // for rounding
+    for (const std::int32_t t : indicesWhere(count, 4096, this->Run, [&](std::size_t n) { return this->moves(n); }))
+    {
+      const Box box = this->sweptBy(std::size_t(t));
+      this->Swept.emplace_back(box.min() - slack, box.max() + slack);
+    }
+    const BoxTree tree(this->Swept);
+    const auto isNear = [&](std::size_t t)
+    {
+      bool near = false;
+      tree.overlapping(this->sweptBy(t), [&](std::int32_t) { near = true; });
+      return near;
+    };
+    this->Near = MeshPart(this->TheMesh, indicesWhere(count, 1024, this->Run, isNear));
+    this->Run.checkpoint(0.4);
   }
 
   void withdrawIntersections()
@@ -307,7 +294,7 @@ private:
     for (;;)
     {
       Phase phase(this->Run, 0.4, 0.4);
-      const auto pairs = selfIntersections(this->nearMesh(), phase);
+      const auto pairs = selfIntersections(this->Near.of(this->TheMesh), phase);
       if (pairs.empty())
       {
         return;
@@ -317,7 +304,7 @@ private:
       {
         for (const std::int32_t t : pair)
         {
-          for (const std::int32_t p : this->TheMesh.triangles[this->Near[t]])
+          for (const std::int32_t p : this->TheMesh.triangles[std::size_t(this->Near.triangle(std::size_t(t)))])
           {
             points.push_back(std::size_t(p));
           }
@@ -339,17 +326,67 @@ private:
     return any;
   }
 
-  /** Six times the signed volume of each component, by its first point, with the given points. */
-  std::vector<double> volumes(const std::vector<Vector3>& points)
+  /** Six times the signed volume of a component. */
+  struct Volume
   {
-    std::vector<double> volume(points.size(), 0.0);
-    for (const Triangle& t : this->TheMesh.triangles)
+    double before = 0.0, now = 0.0;
+  };
+
+  using Volumes = std::map<std::uint32_t, Volume>; ///< of components, by their first points
+
+  /** Adds a triangle's share to its component's; the points of one component are measured from its first. */
+  void addVolume(const Triangle& t, Volumes& volumes)
+  {
+    const auto product = [](const Vector3& o, const Vector3& a, const Vector3& b, const Vector3& c)
+    { return (a - o).cross(b - o).dot(c - o); };
+    const auto& points = this->TheMesh.points;
+    const std::uint32_t first = this->Components.find(std::uint32_t(t[0]));
+    Volume& volume = volumes[first];
+    volume.now += product(points[first], points[t[0]], points[t[1]], points[t[2]]);
+    volume.before += product(this->original(std::int32_t(first)), this->original(t[0]), this->original(t[1]), this->original(t[2]));
+  }
+
+  Volumes volumes()
+  {
+    constexpr std::size_t RunSize = 1 << 15; // triangles whose shares are summed one after another, whatever the threads
+    const auto& triangles = this->TheMesh.triangles;
+    std::vector<Volumes> runs((triangles.size() + RunSize - 1) / RunSize);
+    this->Run.forRanges(runs.size(), 1,
+      [&](std::size_t firstRun, std::size_t lastRun)
+      {
+        for (std::size_t run = firstRun; run < lastRun; ++run)
+        {
+          for (std::size_t t = run * RunSize; t < std::min((run + 1) * RunSize, triangles.size()); ++t)
+          {
+            this->addVolume(triangles[t], runs[run]);
+          }
+        }
+      });
+    Volumes all;
+    for (const Volumes& run : runs)
     {
-      const std::uint32_t first = this->Components.find(std::uint32_t(t[0]));
-      const Vector3& o = points[first];
-      volume[first] += (points[t[0]] - o).cross(points[t[1]] - o).dot(points[t[2]] - o);
+      for (const auto& [component, volume] : run)
+      {
+        all[component].before += volume.before;
+        all[component].now += volume.now;
+      }
     }
-    return volume;
+    return all;
+  }
+
+  void findComponents()
+  {
+    this->Components = ConcurrentUnionFind(this->TheMesh.points.size(), this->Run);
+    const auto& triangles = this->TheMesh.triangles;
+    this->Run.forRanges(triangles.size(), 4096,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t t = first; t < last; ++t)
+        {
+          this->Components.unite(std::uint32_t(triangles[t][0]), std::uint32_t(triangles[t][1]));
+          this->Components.unite(std::uint32_t(triangles[t][0]), std::uint32_t(triangles[t][2]));
+        }
+      });
   }
 
   /** Withdraw components that the moves have turned inside out; false where there are none. */
@@ -357,19 +394,14 @@ private:
   {
     if (this->Components.size() == 0)
     {
-      this->Components = UnionFind(this->TheMesh.points.size());
-      for (const Triangle& t : this->TheMesh.triangles)
-      {
-        this->Components.unite(std::uint32_t(t[0]), std::uint32_t(t[1]));
-        this->Components.unite(std::uint32_t(t[0]), std::uint32_t(t[2]));
-      }
+      this->findComponents();
     }
-    const std::vector<double> before = this->volumes(this->Original), now = this->volumes(this->TheMesh.points);
+    const Volumes volumes = this->volumes();
     bool any = false;
     for (std::size_t m = 0; m < this->Points.size(); ++m)
     {
-      const std::uint32_t component = this->Components.find(std::uint32_t(this->Points[m]));
-      if (before[component] > 0.0 && !(now[component] > 0.0))
+      const Volume& own = volumes.at(this->Components.find(std::uint32_t(this->Points[m])));
+      if (own.before > 0.0 && !(own.now > 0.0))
       {
         any = this->withdraw(m) || any;
       }
@@ -382,7 +414,7 @@ private:
   {
     if (!this->Survivors)
     {
-      this->Survivors.emplace(this->Thin.octree, this->TheMesh, this->Swept);
+      this->Survivors.emplace(this->Thin.octree, this->TheMesh, this->Swept, this->Run);
     }
     Phase phase(this->Run, 0.9, 0.9);
     const auto lost = this->Survivors->lost(this->TheMesh, phase);
@@ -410,15 +442,15 @@ private:
   std::vector<std::size_t> pointsAround(const std::vector<std::uint64_t>& octants, int ring) const
   {
     std::vector<std::size_t> result;
-    for (const std::size_t point : this->Points)
+    for (std::size_t m = 0; m < this->Points.size(); ++m)
     {
-      const Vector3 p = (this->Original[point] - this->lattice().root.origin) / this->lattice().leafEdge();
+      const Vector3 p = (this->Original[m] - this->lattice().root.origin) / this->lattice().leafEdge();
       for (const std::uint64_t code : octants)
       {
         const Vector3 away = p - toVector(fromMorton(code)) - Vector3::Constant(0.5);
         if (away.cwiseAbs().maxCoeff() <= 0.5 + ring + 1e-3)
         {
-          result.push_back(point);
+          result.push_back(this->Points[m]);
           break;
         }
       }
@@ -429,15 +461,15 @@ private:
   const ThinSurface& Thin;
   Mesh& TheMesh;
   Execution& Run;
-  std::vector<Vector3> Original;
   std::vector<std::int32_t> Number; ///< of each point among those that move, or -1
   std::vector<std::size_t> Points;  ///< that move
+  std::vector<Vector3> Original;    ///< their places before
   std::vector<Vector3> Moves;
-  UnionFind Components; ///< of the mesh's points
+  ConcurrentUnionFind Components; ///< of the mesh's points
   std::vector<double> Scale;
   std::vector<int> Withdrawn;
-  std::vector<std::int32_t> Near; ///< triangles
-  std::vector<Box> Swept;         ///< by each triangle that moves
+  MeshPart Near;          ///< the triangles that may meet a moving one
+  std::vector<Box> Swept; ///< by each triangle that moves
   std::optional<CoverageNear> Survivors;
 };
 

@@ -4,6 +4,7 @@
 #include "Error.h"
 #include "NarrowOutside.h"
 #include "SimplePoint.h"
+#include "UnionFind.h"
 #include "WideOutside.h"
 
 #include <algorithm>
@@ -84,10 +85,11 @@ private:
 class Growth
 {
 public:
-  Growth(const LatticeLabels& labels, Parts& parts, int width)
+  Growth(const LatticeLabels& labels, Parts& parts, int width, Execution& execution)
     : Labels(labels)
     , Outside(parts)
     , Width(width)
+    , Run(execution)
   {
     for (std::size_t n = 0; n < parts.size(); ++n)
     {
@@ -152,7 +154,7 @@ private:
   /** This is done when first it is asked for, which on most objects is never. */
   void joinWide()
   {
-    this->Sets.emplace(this->Labels, this->Outside.outside(), this->Width);
+    this->Sets.emplace(this->Labels, this->Outside.outside(), this->Width, this->Run);
     for (std::size_t n = 0; n < this->Outside.size(); ++n)
     {
       if (this->Outside[n] == Taken)
@@ -283,6 +285,7 @@ private:
   const LatticeLabels& Labels;
   Parts& Outside;
   int Width;
+  Execution& Run;
   std::optional<WideOutside> Sets; ///< what of the wide outside is connected; nothing until it is asked for
   std::vector<std::size_t> Remaining;
   /** Least support first, then the first in lattice order. */
@@ -337,7 +340,7 @@ std::vector<std::uint64_t> tunnelWalls(const LatticeLabels& labels, const Tunnel
   }
   Phase looking(execution, 0.0, 0.8);
   Parts parts(labels, options.width, looking);
-  Growth growth(labels, parts, options.width);
+  Growth growth(labels, parts, options.width, execution);
   growth.run();
   const double longest = options.loop * labels.octree().lattice.cells();
   std::vector<std::uint64_t> points;

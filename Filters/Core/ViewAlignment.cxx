@@ -141,7 +141,7 @@ ContourResidual compare(const BinaryImage& image, Distances&& distances, double 
 std::vector<ContourResidual> contourResiduals(
   const FieldViews& fieldViews, const Mesh& surface, const std::vector<int>& views, double limit, Execution& execution)
 {
-  const OutlineRenderer renderer(surface);
+  const OutlineRenderer renderer(surface, fieldViews.cameras(views), execution);
   std::vector<ContourResidual> residuals(views.size());
   execution.forRanges(views.size(), 1,
     [&](std::size_t first, std::size_t last)
@@ -150,7 +150,7 @@ std::vector<ContourResidual> contourResiduals(
       {
         const double scale = fieldViews.pixelsPerOctant(views[i]);
         // One image at a time: its memory serves the next.
-        const BinaryImage image = fieldViews.render(renderer, views[i]);
+        const BinaryImage image = renderer.render(i);
         residuals[i] = fieldViews.isObserved(views[i])
           ? compare(image, fieldViews.observed(views[i]), limit * scale, scale)
           : compare(image, fieldViews.observedOnDemand(views[i]), limit * scale, scale);

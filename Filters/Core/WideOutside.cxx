@@ -55,26 +55,41 @@ std::uint64_t partOfLowest(std::uint64_t points)
 
 } // namespace
 
-WideOutside::WideOutside(const LatticeLabels& labels, const NarrowOutside& narrow, int width)
+WideOutside::WideOutside(const LatticeLabels& labels, const NarrowOutside& narrow, int width, Execution& execution)
   : Blocks(blocksAround(labels, 2 * width))
   , Before(std::uint32_t(narrow.points().size()))
 {
-  this->findParts(narrow);
-  this->joinOctants(labels, width);
-  this->joinBlocks();
+  this->findParts(narrow, execution);
+  this->joinOctants(labels, width, execution);
+  this->joinBlocks(execution);
 }
 
-void WideOutside::findParts(const NarrowOutside& narrow)
+void WideOutside::findParts(const NarrowOutside& narrow, Execution& execution)
 {
-  this->FirstPart.push_back(0);
-  for (const std::uint64_t block : this->Blocks)
-  {
-    for (std::uint64_t left = narrow.wideOfBlock(block); left != 0;)
+  constexpr std::size_t RunSize = 1024;
+  std::vector<std::vector<std::uint64_t>> parts((this->Blocks.size() + RunSize - 1) / RunSize); ///< of so many blocks each
+  std::vector<std::uint8_t> counts(this->Blocks.size());
+  execution.forRanges(parts.size(), 1,
+    [&](std::size_t first, std::size_t last)
     {
-      this->Parts.push_back(~left == 0 ? left : partOfLowest(left));
-      left &= ~this->Parts.back();
-    }
-    this->FirstPart.push_back(std::uint32_t(this->Parts.size()));
+      for (std::size_t block = first * RunSize; block < std::min(last * RunSize, this->Blocks.size()); ++block)
+      {
+        for (std::uint64_t left = narrow.wideOfBlock(this->Blocks[block]); left != 0; ++counts[block])
+        {
+          const std::uint64_t part = ~left == 0 ? left : partOfLowest(left);
+          parts[block / RunSize].push_back(part);
+          left &= ~part;
+        }
+      }
+    });
+  for (const auto& some : parts)
+  {
+    this->Parts.insert(this->Parts.end(), some.begin(), some.end());
+  }
+  this->FirstPart.push_back(0);
+  for (const std::uint8_t count : counts)
+  {
+    this->FirstPart.push_back(this->FirstPart.back() + count);
   }
 }
 
@@ -121,61 +136,60 @@ void WideOutside::joinPoints(std::size_t block, std::uint64_t points, std::uint3
   }
 }
 
-void WideOutside::joinBlocks()
+void WideOutside::joinBlocks(Execution& execution)
 {
-  for (std::size_t block = 0; block < this->Blocks.size(); ++block)
-  {
-    for (int axis = 0; axis < 3; ++axis)
+  execution.forRanges(this->Blocks.size(), 1024,
+    [&](std::size_t first, std::size_t last)
     {
-      std::uint64_t other = 0;
-      besideBlock(this->Blocks[block], axis, true, other);
-      const std::ptrdiff_t beside = findBlock(this->Blocks, other);
-      for (std::uint32_t part = this->FirstPart[block]; beside >= 0 && part < this->FirstPart[block + 1]; ++part)
+      for (std::size_t block = first; block < last; ++block)
       {
-        this->joinPoints(std::size_t(beside), fromBehind(0, this->Parts[part], axis), this->Before + part);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          std::uint64_t other = 0;
+          besideBlock(this->Blocks[block], axis, true, other);
+          const std::ptrdiff_t beside = findBlock(this->Blocks, other);
+          for (std::uint32_t part = this->FirstPart[block]; beside >= 0 && part < this->FirstPart[block + 1]; ++part)
+          {
+            this->joinPoints(std::size_t(beside), fromBehind(0, this->Parts[part], axis), this->Before + part);
+          }
+        }
       }
-    }
-  }
+    });
 }
 
-void WideOutside::joinOctants(const LatticeLabels& labels, int width)
+void WideOutside::joinOctants(const LatticeLabels& labels, int width, Execution& execution)
 {
   const Octree& octree = labels.octree();
-  LatticeRegions regions = connectWideOutside(labels, width);
-  const std::uint32_t octants = this->Before + std::uint32_t(this->Parts.size());
-  this->Sets = UnionFind(octants + regions.sets.size());
-  for (std::uint32_t r = 0; r < regions.sets.size(); ++r)
-  {
-    const std::uint32_t set = regions.sets.find(r);
-    if (set != r)
+  LatticeRegions regions = connectWideOutside(labels, width, this->Before + this->Parts.size(), execution);
+  this->Sets = std::move(regions.sets);
+  execution.forRanges(this->Blocks.size(), 1024,
+    [&](std::size_t first, std::size_t last)
     {
-      this->Sets.unite(octants + r, octants + set);
-    }
-  }
-  OctantCursor cursor(octree);
-  for (std::size_t block = 0; block < this->Blocks.size(); ++block)
-  {
-    const std::uint64_t within = withinBorder(octree.lattice, this->Blocks[block]);
-    this->joinPoints(block, ~within, octants + regions.beyond);
-    // Octants narrower than `width` are in no region, so that mostly one tells about all points.
-    for (std::uint64_t left = within; left != 0;)
-    {
-      const int bit = lowestBit(left);
-      const auto location = cursor.locate(fromMorton(64 * this->Blocks[block] + std::uint64_t(bit)));
-      const int size = location.generation < 0 ? 0 : std::min(octree.lattice.depth - location.generation, 2);
-      const std::uint64_t points = size == 2 ? ~std::uint64_t(0) : size == 1 ? std::uint64_t(0xff) << (bit & 56) : std::uint64_t(1) << bit;
-      if (location.generation >= 0 && location.state == OctantState::Background &&
-        octree.lattice.cells() >> location.generation >= width)
+      OctantCursor cursor(octree);
+      for (std::size_t block = first; block < last; ++block)
       {
-        this->joinPoints(block, points & left, octants + regions.octant(location.generation, location.index));
+        const std::uint64_t within = withinBorder(octree.lattice, this->Blocks[block]);
+        this->joinPoints(block, ~within, regions.beyond);
+        // Octants narrower than `width` are in no region, so that mostly one tells about all points.
+        for (std::uint64_t left = within; left != 0;)
+        {
+          const int bit = lowestBit(left);
+          const auto location = cursor.locate(fromMorton(64 * this->Blocks[block] + std::uint64_t(bit)));
+          const int size = location.generation < 0 ? 0 : std::min(octree.lattice.depth - location.generation, 2);
+          const std::uint64_t points = size == 2 ? ~std::uint64_t(0) : size == 1 ? std::uint64_t(0xff) << (bit & 56) : std::uint64_t(1) << bit;
+          if (location.generation >= 0 && location.state == OctantState::Background &&
+            octree.lattice.cells() >> location.generation >= width)
+          {
+            this->joinPoints(block, points & left, regions.octant(location.generation, location.index));
+          }
+          left &= ~points;
+          if (size < 2 && width > 2)
+          {
+            break;
+          }
+        }
       }
-      left &= ~points;
-      if (size < 2 && width > 2)
-      {
-        break;
-      }
-    }
-  }
+    });
 }
 
 } // namespace silhouette

@@ -5,8 +5,8 @@
  */
 #pragma once
 
+#include "ConcurrentUnionFind.h"
 #include "NarrowOutside.h"
-#include "UnionFind.h"
 
 #include <vector>
 
@@ -18,7 +18,7 @@ class WideOutside
 {
 public:
   /** `width` as that of the narrow outside, which has to outlive this. Cost: linear in the octants, and the points within 2 `width` of the surface. */
-  WideOutside(const LatticeLabels& labels, const NarrowOutside& narrow, int width);
+  WideOutside(const LatticeLabels& labels, const NarrowOutside& narrow, int width, Execution& execution);
 
   /** Stands for the set of a wide point near the surface; `Nowhere` for points that are in no block. */
   std::uint32_t setOf(const LatticePoint& wide);
@@ -32,17 +32,17 @@ public:
   static constexpr std::uint32_t Nowhere = 0xffffffffu;
 
 private:
-  void findParts(const NarrowOutside& narrow);
+  void findParts(const NarrowOutside& narrow, Execution& execution);
   std::uint32_t partOf(const LatticePoint& p) const;
-  void joinBlocks();
-  void joinOctants(const LatticeLabels& labels, int width);
+  void joinBlocks(Execution& execution);
+  void joinOctants(const LatticeLabels& labels, int width, Execution& execution);
   void joinPoints(std::size_t block, std::uint64_t points, std::uint32_t set);
 
   std::vector<std::uint64_t> Blocks;    ///< Morton codes, ascending
   std::vector<std::uint32_t> FirstPart; ///< of each block, and the end
   std::vector<std::uint64_t> Parts;     ///< points of a block that meet within it
   std::uint32_t Before = 0;             ///< sets before those of the parts: the narrow points'
-  UnionFind Sets;
+  ConcurrentUnionFind Sets;
 };
 
 } // namespace silhouette

@@ -50,7 +50,7 @@ struct RandomLabels
 TEST(CellSafety, RepairsACellThatWasMadeToIntersectItself)
 {
   RandomLabels r(12);
-  Mesh mesh = placePoints(r.lattice, r.shell, r.surface, r.fractions, false);
+  Mesh mesh = placePoints(r.lattice, r.shell, r.surface, r.fractions, false, r.execution);
   EXPECT_EQ(removeCellIntersections(r.lattice, r.shell, r.surface, false, mesh, r.execution), 0u);
   EXPECT_TRUE(selfIntersections(mesh, r.execution).empty());
   // Push points off their edges, far enough to fold their cells.
@@ -74,7 +74,7 @@ TEST(CellSafety, RepairsACellThatWasMadeToIntersectItself)
 TEST(CellSafety, PointsStayApartInSinglePrecision)
 {
   RandomLabels r(12);
-  const Mesh mesh = placePoints(r.lattice, r.shell, r.surface, r.fractions, true);
+  const Mesh mesh = placePoints(r.lattice, r.shell, r.surface, r.fractions, true, r.execution);
   for (const auto& p : mesh.points)
   {
     EXPECT_EQ(p, roundedToFloat(p));

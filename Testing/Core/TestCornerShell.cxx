@@ -2,6 +2,7 @@
 #include "CornerShell.h"
 
 #include "CarvingTestCaptures.h"
+#include "CodeCursor.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +45,7 @@ TEST(CornerShell, SharesTheCornersOfItsCells)
     EXPECT_EQ(shell.find(shell.corners[c]), std::ptrdiff_t(c));
   }
   EXPECT_EQ(shell.find(mortonCode({ 100, 100, 100 })), -1);
-  ShellCursor cursor(shell);
+  CodeCursor cursor(shell.corners);
   for (int n = 0; n < 20000; ++n)
   {
     const LatticePoint p{ random.below(44), random.below(44), random.below(44) };

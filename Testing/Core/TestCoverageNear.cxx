@@ -96,7 +96,7 @@ TEST(CoverageNear, LosesWhatTheWholeSurfaceLoses)
           p += length * Vector3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
         }
       }
-      const CoverageNear near(octree, before, sweptBy(before, after));
+      const CoverageNear near(octree, before, sweptBy(before, after), execution);
       const auto expected = allLost(octree, after);
       EXPECT_EQ(near.lost(after, execution), expected) << seed;
       EXPECT_TRUE(near.lost(before, execution).empty()) << seed;
@@ -113,5 +113,5 @@ TEST(CoverageNear, NothingThatMovesLosesNothing)
   Execution execution;
   const Mesh sphere = sphereMesh(3, 0.7);
   const Octree octree = coveredOctants({ unitCube(1.1), 4 }, sphere);
-  EXPECT_TRUE(CoverageNear(octree, sphere, {}).lost(sphere, execution).empty());
+  EXPECT_TRUE(CoverageNear(octree, sphere, {}, execution).lost(sphere, execution).empty());
 }

@@ -126,15 +126,16 @@ TEST(FieldViews, RenderIsTheSilhouetteOfTheShiftedProjection)
   fieldViews.addShift(2, Vector2(4.6, -2.3));
   fieldViews.addShift(4, Vector2(-1.5, 0.25));
   const Mesh mesh = torusMesh(40, 20, 0.6, 0.2);
-  const OutlineRenderer renderer(mesh);
+  const OutlineRenderer renderer(mesh, fieldViews.cameras({ 4, 0, 2 }), execution);
   const auto maps = fieldViews.distances(mesh, execution);
   ASSERT_EQ(maps.size(), 5u);
+  std::size_t n = 0;
   for (const int view : { 4, 0, 2 })
   {
     Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
     shift.col(2).head<2>() = fieldViews.shift(view);
     const Projection shifted = shift * views[view].projection;
-    const BinaryImage image = fieldViews.render(renderer, view);
+    const BinaryImage image = renderer.render(n++);
     EXPECT_EQ(image.pixels, renderSilhouette(mesh, shifted, Size, Size).pixels) << view;
     EXPECT_EQ(image.pixels == renderSilhouette(mesh, views[view].projection, Size, Size).pixels, view == 0);
     EXPECT_GE(maps[view].reach, 5.0 * fieldViews.pixelsPerOctant(view));

@@ -50,9 +50,10 @@ double unionAt(const std::vector<LocalHull>& hulls, const Vector3& p)
   return least;
 }
 
-Mesh meshOf(const CombinedSurface& combined, const Lattice& lattice)
+Mesh meshOf(CombinedSurface combined, const Lattice& lattice)
 {
-  return placePoints(lattice, combined.shell, combined.surface, combined.fractions, false);
+  Execution execution;
+  return placePoints(lattice, combined.shell, combined.surface, combined.fractions, false, execution);
 }
 
 } // namespace
@@ -153,7 +154,7 @@ TEST(HullCombination, WhatASurfaceEnclosesIsPartOfTheUnionAndAloneIsTheSurface)
   const PreparedViews views = prepareViews(viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(9, 120), 120));
   const Octree octree = carveViews(views, unitCube(), 5);
   const auto surface = votingMarchingCubes(octree, views, VotingOptions(), execution);
-  const auto crossings = locateCrossings(surface.mesh, octree.lattice);
+  const auto crossings = locateCrossings(surface.mesh, octree.lattice, CrossingSides::Located, execution);
   const auto combined = contourRows(combinedRows({}, crossings, octree.lattice, execution), octree.lattice, execution);
   const Mesh mesh = meshOf(combined, octree.lattice);
   ASSERT_EQ(mesh.points.size(), surface.mesh.points.size());

@@ -38,8 +38,8 @@ struct Scene
 
 TEST(LatticeLabels, EveryPointOfAMarchingCubesSurfaceIsFoundOnItsEdge)
 {
-  const Scene scene(0);
-  const SurfaceCrossings crossings = locateCrossings(scene.surface.mesh, scene.octree.lattice);
+  Scene scene(0);
+  const SurfaceCrossings crossings = locateCrossings(scene.surface.mesh, scene.octree.lattice, CrossingSides::Located, scene.execution);
   EXPECT_EQ(crossings.ignoredPoints, 0u);
   EXPECT_EQ(crossings.crossings.size(), scene.surface.mesh.points.size());
   Mesh moved = scene.surface.mesh;
@@ -47,7 +47,7 @@ TEST(LatticeLabels, EveryPointOfAMarchingCubesSurfaceIsFoundOnItsEdge)
   {
     p += Eigen::Vector3d::Constant(0.2 * scene.octree.lattice.leafEdge());
   }
-  EXPECT_EQ(locateCrossings(moved, scene.octree.lattice).ignoredPoints, moved.points.size());
+  EXPECT_EQ(locateCrossings(moved, scene.octree.lattice, CrossingSides::Located, scene.execution).ignoredPoints, moved.points.size());
 }
 
 /** Without views the surface has to give the labels back that it was made from. */
@@ -58,7 +58,7 @@ TEST(LatticeLabels, LabelsFromTheSurfaceAreThoseOfTheVotes)
     Scene scene(noise);
     const LatticeLabels voted(scene.octree, scene.shell, scene.views, scene.execution);
     const LatticeLabels read(
-      scene.octree, scene.shell, locateCrossings(scene.surface.mesh, scene.octree.lattice));
+      scene.octree, scene.shell, locateCrossings(scene.surface.mesh, scene.octree.lattice, CrossingSides::Located, scene.execution));
     std::size_t differing = 0;
     for (std::size_t c = 0; c < voted.inside().size(); ++c)
     {
@@ -147,7 +147,7 @@ TEST(LatticeLabels, RememberedOnesFollowAChangeThatIsTold)
       if (round == 0 && c % 3 == 0 && !labels.inside()[c] && !scene.octree.lattice.onBorder(p))
       {
         labels.setInside(c);
-        cache.forget(scene.shell.corners[c]);
+        cache.setInside(scene.shell.corners[c]);
         ++changed;
       }
     }

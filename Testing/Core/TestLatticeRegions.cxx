@@ -93,7 +93,7 @@ TEST(LatticeRegions, SolidSurvivorsAndCavitiesAgreeWithFlooding)
     EXPECT_EQ(countSurvivorComponents(octree, execution),
       std::uint64_t(floodComponents(
         32, 3, [&](const LatticePoint& p) { return octree.locate(p).state != OctantState::Background; })));
-    LatticeRegions solid = connectRegions(labels, true);
+    LatticeRegions solid = connectRegions(labels, true, execution);
     std::set<std::uint32_t> roots;
     for (std::uint32_t c = 0; c < shell.corners.size(); ++c)
     {
@@ -106,9 +106,9 @@ TEST(LatticeRegions, SolidSurvivorsAndCavitiesAgreeWithFlooding)
     const auto outside = [&](const LatticePoint& p) { return !labels.insideAt(p); };
     EXPECT_EQ(int(roots.size()), floodComponents(33, 2, inside));
     const int cavities = floodComponents(33, 1, outside) - 1;
-    EXPECT_EQ(fillCavities(labels), std::uint64_t(cavities)) << "noise " << kind;
+    EXPECT_EQ(fillCavities(labels, execution), std::uint64_t(cavities)) << "noise " << kind;
     EXPECT_EQ(floodComponents(33, 1, outside), 1);
-    EXPECT_EQ(fillCavities(labels), 0u);
+    EXPECT_EQ(fillCavities(labels, execution), 0u);
   }
 }
 
@@ -156,7 +156,7 @@ TEST(LatticeRegions, CavitiesOfAFieldThatReachesIntoBackgroundOctantsAgreeWithFl
     const auto outside = [&](const LatticePoint& p) { return !labels.insideAt(p); };
     const int cavities = floodComponents(n + 1, 1, outside) - 1;
     found += cavities;
-    EXPECT_EQ(fillCavities(labels), std::uint64_t(cavities)) << round;
+    EXPECT_EQ(fillCavities(labels, execution), std::uint64_t(cavities)) << round;
     EXPECT_EQ(floodComponents(n + 1, 1, outside), 1) << round;
   }
   EXPECT_GT(found, 100);
@@ -172,6 +172,6 @@ TEST(LatticeRegions, AStrictHullOfTheAnnuliHasNoCavityOneVoteLeavesOne)
     const Octree octree = carveViews(views, unitCube(), 6, k);
     LatticeLabels labels(
       octree, makeCornerShell(leafCells(octree, OctantState::Intersection), execution), views, execution);
-    EXPECT_EQ(fillCavities(labels) > 0, k == 1);
+    EXPECT_EQ(fillCavities(labels, execution) > 0, k == 1);
   }
 }

@@ -130,7 +130,7 @@ TEST(RowIntervals, ASurfacesRowsTellItsInsideCorners)
   const PreparedViews views = prepareViews(viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(9, 120), 120));
   const Octree octree = carveViews(views, unitCube(), 4);
   const auto surface = votingMarchingCubes(octree, views, VotingOptions(), execution);
-  const auto crossings = locateCrossings(surface.mesh, octree.lattice);
+  const auto crossings = locateCrossings(surface.mesh, octree.lattice, CrossingSides::Located, execution);
   const SolidRows rows = surfaceRows(crossings);
   const LatticeViews lattice(views, octree.lattice);
   std::size_t inside = 0;

@@ -33,7 +33,7 @@ struct Labelled
     surface = contour(shell, inside, execution);
     fractions.assign(surface.edges.size(), 0.5);
   }
-  MeshSoundness soundness() { return assessMesh(placePoints(lattice, shell, surface, fractions, false), execution); }
+  MeshSoundness soundness() { return assessMesh(placePoints(lattice, shell, surface, fractions, false, execution), execution); }
 
   Execution execution;
   Lattice lattice;

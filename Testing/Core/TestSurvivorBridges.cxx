@@ -30,9 +30,9 @@ TEST(SurvivorBridges, JoinWhatTheGapAllowsAndNoMore)
   const Octree octree = twoBoxes(2.9 / 16.0, views);
   ASSERT_EQ(countSurvivorComponents(octree, execution), 2u);
   const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
-  EXPECT_TRUE(bridgeSurvivors(octree, shell, 0).empty());
-  EXPECT_TRUE(bridgeSurvivors(octree, shell, 1).empty());
-  const auto bridges = bridgeSurvivors(octree, shell, 2);
+  EXPECT_TRUE(bridgeSurvivors(octree, shell, 0, execution).empty());
+  EXPECT_TRUE(bridgeSurvivors(octree, shell, 1, execution).empty());
+  const auto bridges = bridgeSurvivors(octree, shell, 2, execution);
   ASSERT_EQ(bridges.size(), 1u);
   EXPECT_GE(shell.find(bridges[0].front()), 0);
   EXPECT_GE(shell.find(bridges[0].back()), 0);

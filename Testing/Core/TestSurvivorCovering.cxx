@@ -3,6 +3,7 @@
 
 #include "CarvingTestCaptures.h"
 #include "LatticeRegions.h"
+#include "UnionFind.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ TEST(SurvivorCovering, GivesEverySurvivorAnInsideCornerAndEveryComponentOneSolid
     const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
     LatticeLabels labels(octree, shell, views, execution);
     const auto before = labels.inside();
-    const CoveringResult result = coverSurvivors(labels, {}, 0);
+    const CoveringResult result = coverSurvivors(labels, {}, 0, nullptr, execution);
     EXPECT_GT(result.coveredCells.size(), 0u);
     std::set<std::uint32_t> added(result.coveringCorners.begin(), result.coveringCorners.end());
     EXPECT_EQ(added.size(), result.coveringCorners.size());
@@ -78,11 +79,11 @@ TEST(SurvivorCovering, SaysWhetherItMayHaveEnclosedACavity)
     const Octree octree = carveViews(views, unitCube(), 4);
     LatticeLabels labels(
       octree, makeCornerShell(leafCells(octree, OctantState::Intersection), execution), views, execution);
-    fillCavities(labels);
-    const CoveringResult result = coverSurvivors(labels, {}, 0);
+    fillCavities(labels, execution);
+    const CoveringResult result = coverSurvivors(labels, {}, 0, nullptr, execution);
     others += !result.coveringCorners.empty() && !result.mayEnclose;
     enclosing += result.mayEnclose;
-    const std::uint64_t cavities = fillCavities(labels);
+    const std::uint64_t cavities = fillCavities(labels, execution);
     EXPECT_TRUE(result.mayEnclose || cavities == 0) << scene << ": " << cavities;
   }
   EXPECT_GT(others, 5);

@@ -26,7 +26,7 @@ TEST(WideOutside, MeetsAroundTheSolidAndNotThroughIt)
   {
     LabelledSolid solid(5, [&](const LatticePoint& p) { return hollowBox(p, open); });
     const NarrowOutside narrow(*solid.labels, 3, solid.execution);
-    WideOutside wide(*solid.labels, narrow, 3);
+    WideOutside wide(*solid.labels, narrow, 3, solid.execution);
     const std::uint32_t within = wide.setOf(LatticePoint{ 10, 10, 10 });
     EXPECT_NE(within, WideOutside::Nowhere);
     EXPECT_EQ(wide.setOf(LatticePoint{ 19, 12, 15 }), within);

@@ -38,7 +38,7 @@ struct Covered
         this->cells.push_back(c);
       }
     }
-    for (const std::uint32_t corner : coverSurvivors(this->labels, {}, 0).coveringCorners)
+    for (const std::uint32_t corner : coverSurvivors(this->labels, {}, 0, nullptr, execution).coveringCorners)
     {
       this->added.push_back(this->labels.shell().corners[corner]);
     }
@@ -62,7 +62,7 @@ struct Covered
       const double t = exactCrossing(this->views, fromMorton(a), fromMorton(b), this->octree.backgroundVotes);
       fractions.push_back(covering ? 0.03 : std::clamp(t, CrossingMargin, 1.0 - CrossingMargin));
     }
-    Mesh mesh = placePoints(this->octree.lattice, this->shell, this->surface, fractions, singlePrecision);
+    Mesh mesh = placePoints(this->octree.lattice, this->shell, this->surface, fractions, singlePrecision, this->execution);
     removeCellIntersections(
       this->octree.lattice, this->shell, this->surface, singlePrecision, mesh, this->execution);
     return mesh;
