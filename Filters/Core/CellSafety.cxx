@@ -74,7 +74,7 @@ void requireSinglePrecision(const Lattice& lattice)
   }
 }
 
-Mesh placePoints(const Lattice& lattice, const CornerShell& shell, LatticeSurface& surface,
+Mesh placePoints(const Lattice& lattice, const CornerShell& shell, const LatticeSurface& surface,
   const std::vector<double>& fractions, bool singlePrecision, Execution& execution)
 {
   if (singlePrecision)
@@ -82,7 +82,13 @@ Mesh placePoints(const Lattice& lattice, const CornerShell& shell, LatticeSurfac
     requireSinglePrecision(lattice);
   }
   Mesh mesh;
-  mesh.triangles = std::move(surface.triangles);
+  resizeSideBySide(mesh.triangles, surface.triangles.size(), execution);
+  execution.forRanges(mesh.triangles.size(), 16384,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::copy(surface.triangles.begin() + std::ptrdiff_t(first), surface.triangles.begin() + std::ptrdiff_t(last),
+        mesh.triangles.begin() + std::ptrdiff_t(first));
+    });
   resizeSideBySide(mesh.points, surface.edges.size(), execution);
   execution.forRanges(mesh.points.size(), 4096,
     [&](std::size_t first, std::size_t last)

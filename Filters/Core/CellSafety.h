@@ -14,10 +14,10 @@ namespace silhouette
 {
 
 /**
- * The mesh of a surface, whose triangles it takes: the points at the given fractions from the inside ends. With `singlePrecision` they are rounded to float;
+ * The mesh of a surface: its points at the given fractions from the inside ends. With `singlePrecision` they are rounded to float;
  * throws InvalidInput where float is too coarse to keep points of one lattice edge apart.
  */
-Mesh placePoints(const Lattice& lattice, const CornerShell& shell, LatticeSurface& surface,
+Mesh placePoints(const Lattice& lattice, const CornerShell& shell, const LatticeSurface& surface,
   const std::vector<double>& fractions, bool singlePrecision, Execution& execution);
 
 /** Throws InvalidInput where float cannot hold the lattice's surfaces: it must resolve 1/1024 of a leaf. */

@@ -64,6 +64,8 @@ public:
   }
 
   int most() const { return this->Most; }
+  /** Are the columns of neighbouring samples neighbours? */
+  bool isDense() const { return this->Spacing == 1; }
   /** Of columns in a piece and around it. */
   int length() const { return TileSize * this->Spacing + 2 * this->Most; }
   /** Where the columns begin that are `d` off each sample, in the order of the samples. */
@@ -98,80 +100,158 @@ private:
   std::vector<int> Offsets;
 };
 
-/**
- * For a piece's samples, from the squares of the distances within the columns (0 at pixels of the other kind): the least
- * d * d + column[d]^2 over |d| <= most. Stops where no larger d can matter.
- */
+constexpr int GroupSize = 8; ///< columns on either side that are looked at together
+
+/** Squares of a piece's samples, worked on together; by reference alone, since how they are passed depends on the machine. */
 template <typename Square>
-inline void leastSquares(const Square* squares, const PieceColumns& columns, Square* best)
+struct Lanes
 {
-  std::copy(squares + columns.offset(0), squares + columns.offset(0) + TileSize, best);
-  for (int d = 1; d <= columns.most(); ++d)
+  typedef Square Type __attribute__((vector_size(TileSize * sizeof(Square))));
+
+  [[gnu::always_inline]] static void load(const Square* from, Type& lanes) { std::memcpy(&lanes, from, sizeof(lanes)); }
+  [[gnu::always_inline]] static void takeLess(Type& lanes, const Type& others) { lanes = others < lanes ? others : lanes; }
+  /** Is any of these lanes less than the other's? */
+  [[gnu::always_inline]] static bool anyLess(const Type& lanes, const Type& others)
   {
-    const Square square = Square(d * d);
-    const Square *before = squares + columns.offset(-d), *after = squares + columns.offset(d);
-    Square greatest = 0;
-    for (int c = 0; c < TileSize; ++c)
+    const auto less = lanes < others;
+    std::uint64_t words[sizeof(less) / sizeof(std::uint64_t)], any = 0;
+    std::memcpy(words, &less, sizeof(less));
+    for (const std::uint64_t word : words)
     {
-      const Square nearer = std::min(before[c], after[c]);
-      best[c] = std::min(best[c], Square(nearer + square));
-      greatest = std::max(greatest, best[c]);
+      any |= word;
     }
-    if (long(d + 1) * (d + 1) >= long(greatest))
+    return any != 0;
+  }
+};
+
+/** Of each column and the seven that follow it, the least; up to the last column that seven follow. */
+template <typename Square>
+[[gnu::always_inline]] inline void leastOfGroups(const Square* squares, int count, Square* least)
+{
+  using Piece = Lanes<Square>;
+  for (int c = 0; c + TileSize + GroupSize - 1 <= count; c += TileSize)
+  {
+    typename Piece::Type piece, next;
+    Piece::load(squares + c, piece);
+    for (int d = 1; d < GroupSize; ++d)
     {
-      return;
+      Piece::load(squares + c + d, next);
+      Piece::takeLess(piece, next);
     }
+    std::memcpy(least + c, &piece, sizeof(piece));
   }
 }
 
-/** The pixels of a row that count for a piece. */
-struct RowPiece
+/**
+ * For a piece's samples, from the squares of the distances within the columns (0 at pixels of the other kind): the least
+ * d * d + column[d]^2 over |d| <= most. Stops where no larger d can matter, and passes over groups of d that cannot: `groups` has the least of each column and the seven that follow it.
+ */
+template <typename Square>
+[[gnu::always_inline]] inline void leastSquares(const Square* squares, const PieceColumns& columns, const Square* groups, Square* best)
 {
-  const std::uint8_t* pixels;   ///< the first one that there is
-  const std::int16_t* inColumn; ///< its distance within the column
-  int before;                   ///< so many are missing before it
-  int count;                    ///< so many there are
+  using Piece = Lanes<Square>;
+  typename Piece::Type least, nearer, other;
+  Piece::load(squares + columns.offset(0), least);
+  for (int first = 1; first <= columns.most(); first += GroupSize)
+  {
+    const typename Piece::Type square = typename Piece::Type{} + Square(first * first);
+    if (!Piece::anyLess(square, least))
+    {
+      break;
+    }
+    const int last = std::min(first + GroupSize - 1, columns.most());
+    if (columns.isDense() && first > 1 && last == first + GroupSize - 1)
+    {
+      Piece::load(groups + columns.offset(-last), nearer);
+      Piece::load(groups + columns.offset(first), other);
+      Piece::takeLess(nearer, other);
+      if (!Piece::anyLess(nearer + square, least))
+      {
+        continue;
+      }
+    }
+    for (int d = first; d <= last; ++d)
+    {
+      Piece::load(squares + columns.offset(-d), nearer);
+      Piece::load(squares + columns.offset(d), other);
+      Piece::takeLess(nearer, other);
+      Piece::takeLess(least, nearer + Square(d * d));
+    }
+  }
+  std::memcpy(best, &least, sizeof(least));
+}
+
+/** For pixels of one kind of a row: the squares of the distances within the columns, 0 at pixels of the other kind; and the least of groups of them. */
+template <typename Square>
+struct RowSquares
+{
+  std::vector<Square> columns;
+  std::vector<Square> groups;
+  std::vector<Square> arranged; ///< those of one piece, as the samples find them
 };
 
-/** Squares of a piece's distances, a buffer each: as the columns lie, and as the samples find them. */
-template <typename Square>
-struct SquareBuffers
+/** Some pixels of a row, and their distances within the columns. */
+struct RowPixels
 {
-  std::vector<Square> columns; ///< before the first pixel their limit
-  std::vector<Square> arranged;
+  const std::uint8_t* pixels;
+  const std::int16_t* inColumn;
+  int count;
 };
 
-/** Distances of a piece's samples if they are of one kind. */
+/** `before` columns of the limit's square come first; after the row's last column that one goes on. */
 template <typename Square>
-inline void measureKind(
-  const RowPiece& row, std::uint8_t kind, const PieceColumns& columns, SquareBuffers<Square>& squares, float* distances)
+[[gnu::always_inline]] inline void squareKind(
+  const RowPixels& row, std::uint8_t kind, int before, Square limit, bool inGroups, RowSquares<Square>& squares)
 {
-  Square* const own = squares.columns.data() + row.before;
+  const int length = int(squares.columns.size());
+  std::fill_n(squares.columns.begin(), before, limit);
+  Square* const own = squares.columns.data() + before;
   for (int c = 0; c < row.count; ++c)
   {
     const Square square = Square(row.inColumn[c] * row.inColumn[c]);
     own[c] = row.pixels[c] == kind ? square : Square(0);
   }
   // Beyond the image the last column goes on; that is no nearer to any pixel of it.
-  std::fill(own + row.count, squares.columns.data() + columns.length(), own[row.count - 1]);
+  std::fill(own + row.count, squares.columns.data() + length, own[row.count - 1]);
+  if (inGroups)
+  {
+    leastOfGroups(squares.columns.data(), length, squares.groups.data());
+  }
+}
+
+SILHOUETTE_VECTORISED void squareColumns(
+  const RowPixels& row, std::uint8_t kind, int before, std::int16_t limit, bool inGroups, RowSquares<std::int16_t>& squares)
+{
+  squareKind(row, kind, before, limit, inGroups, squares);
+}
+
+SILHOUETTE_VECTORISED void squareColumns(
+  const RowPixels& row, std::uint8_t kind, int before, std::int32_t limit, bool inGroups, RowSquares<std::int32_t>& squares)
+{
+  squareKind(row, kind, before, limit, inGroups, squares);
+}
+
+/** Distances of a piece's samples if they are of one kind; its columns begin `first` into the row's. */
+template <typename Square>
+[[gnu::always_inline]] inline void measureKind(int first, const PieceColumns& columns, RowSquares<Square>& squares, float* distances)
+{
   Square best[TileSize];
-  leastSquares(columns.arrange(squares.columns.data(), squares.arranged), columns, best);
+  leastSquares(
+    columns.arrange(squares.columns.data() + first, squares.arranged), columns, squares.groups.data() + first, best);
   for (int c = 0; c < TileSize; ++c)
   {
     distances[c] = std::sqrt(float(best[c])) - 0.5f;
   }
 }
 
-SILHOUETTE_VECTORISED void measureShort(const RowPiece& row, std::uint8_t kind, const PieceColumns& columns,
-  SquareBuffers<std::int16_t>& squares, float* distances)
+SILHOUETTE_VECTORISED void measurePiece(int first, const PieceColumns& columns, RowSquares<std::int16_t>& squares, float* distances)
 {
-  measureKind(row, kind, columns, squares, distances);
+  measureKind(first, columns, squares, distances);
 }
 
-SILHOUETTE_VECTORISED void measureLong(const RowPiece& row, std::uint8_t kind, const PieceColumns& columns,
-  SquareBuffers<std::int32_t>& squares, float* distances)
+SILHOUETTE_VECTORISED void measurePiece(int first, const PieceColumns& columns, RowSquares<std::int32_t>& squares, float* distances)
 {
-  measureKind(row, kind, columns, squares, distances);
+  measureKind(first, columns, squares, distances);
 }
 
 /** From each pixel's distance in its column to the other kind, on one side, that of the next row's. */
@@ -237,29 +317,8 @@ public:
   /** A piece of a row of samples; those that are not there, too, have a place in `out`. */
   void measure(int row, int piece, float* out)
   {
-    const int first = piece * TileSize * this->Map.spacing;
-    const std::uint8_t* pixels = this->row(row * this->Map.spacing);
-    bool any[2] = { false, false };
-    std::uint8_t kinds[TileSize];
-    for (int c = 0; c < TileSize; ++c)
-    {
-      kinds[c] = pixels[std::min(first + c * this->Map.spacing, this->Map.lastColumn)];
-      any[kinds[c]] = true;
-    }
-    float distances[TileSize];
-    for (const std::uint8_t kind : { 0, 1 })
-    {
-      if (!any[kind])
-      {
-        continue;
-      }
-      this->measureKindOf(row, first, kind, distances);
-      for (int c = 0; c < TileSize; ++c)
-      {
-        const float distance = std::min(distances[c], this->Map.reach);
-        out[c] = kinds[c] == kind ? (kind != 0 ? distance : -distance) : out[c];
-      }
-    }
+    this->squarePieces(row, piece, piece);
+    this->measurePieceOf(row, piece, out);
   }
 
   /** One of all pixels, as measure() has it. */
@@ -282,17 +341,30 @@ public:
   void run(std::vector<float>& value)
   {
     value.reserve(std::size_t(this->Map.columns) * this->Map.rows); // written once
+    this->Kinds.resize(std::size_t(this->pieces()));
     for (int row = 0; row < this->Map.rows; ++row)
     {
       this->classifyRow(row);
+      int first = this->pieces(), last = -1; // mixed ones
+      for (int piece = 0; piece < this->pieces(); ++piece)
+      {
+        this->Kinds[std::size_t(piece)] = this->kindAround(piece);
+        const bool isMixed = this->Kinds[std::size_t(piece)] == Mixed;
+        first = isMixed ? std::min(first, piece) : first;
+        last = isMixed ? piece : last;
+      }
+      if (first <= last)
+      {
+        this->squarePieces(row, first, last);
+      }
       for (int piece = 0; piece < this->pieces(); ++piece)
       {
         const std::size_t count = std::size_t(std::min(TileSize, this->Map.columns - piece * TileSize));
-        const std::uint8_t kind = this->kindAround(piece);
+        const std::uint8_t kind = this->Kinds[std::size_t(piece)];
         if (kind == Mixed)
         {
           float distances[TileSize];
-          this->measure(row, piece, distances);
+          this->measurePieceOf(row, piece, distances);
           value.insert(value.end(), distances, distances + count);
         }
         else
@@ -375,29 +447,58 @@ private:
     return this->Tiles[from];
   }
 
-  void measureKindOf(int row, int firstColumn, std::uint8_t kind, float* distances)
+  bool isShort() const { return this->Limit <= LongestShort; }
+  /** Where a piece's columns begin; some may be missing before the first. */
+  int firstColumn(int piece) const { return piece * TileSize * this->Map.spacing - this->Columns.most(); }
+
+  /** Squares of the columns of some pieces of a row of samples, for both kinds. */
+  void squarePieces(int row, int firstPiece, int lastPiece)
   {
-    const int before = firstColumn - this->Columns.most(), length = this->Columns.length();
-    const int from = std::max(before, 0), to = std::min(before + length, this->Width);
-    const RowPiece piece{ this->row(row * this->Map.spacing) + from, this->inColumn(row) + from, from - before, to - from };
-    const std::int32_t most = this->Limit * this->Limit;
-    if (this->Limit <= LongestShort)
-    {
-      makeRoom(this->Short, length, piece.before, std::int16_t(most));
-      measureShort(piece, kind, this->Columns, this->Short, distances);
-    }
-    else
-    {
-      makeRoom(this->Long, length, piece.before, most);
-      measureLong(piece, kind, this->Columns, this->Long, distances);
-    }
+    this->FirstPiece = firstPiece;
+    this->isShort() ? this->squarePieces(row, lastPiece, this->Short) : this->squarePieces(row, lastPiece, this->Long);
   }
 
   template <typename Square>
-  static void makeRoom(SquareBuffers<Square>& squares, int length, int missing, Square most)
+  void squarePieces(int row, int lastPiece, RowSquares<Square> (&squares)[2])
   {
-    squares.columns.resize(std::size_t(length));
-    std::fill_n(squares.columns.begin(), missing, most);
+    const int begin = this->firstColumn(this->FirstPiece), length = this->firstColumn(lastPiece) + this->Columns.length() - begin;
+    const int from = std::max(begin, 0), to = std::min(begin + length, this->Width);
+    const RowPixels pixels{ this->row(row * this->Map.spacing) + from, this->inColumn(row) + from, to - from };
+    for (const std::uint8_t kind : { 0, 1 })
+    {
+      squares[kind].columns.resize(std::size_t(length));
+      squares[kind].groups.resize(std::size_t(length));
+      squareColumns(pixels, kind, from - begin, Square(this->Limit * this->Limit), this->Columns.isDense(), squares[kind]);
+    }
+  }
+
+  /** measure(), of pieces with squares. */
+  void measurePieceOf(int row, int piece, float* out)
+  {
+    const int first = piece * TileSize * this->Map.spacing, offset = this->firstColumn(piece) - this->firstColumn(this->FirstPiece);
+    const std::uint8_t* pixels = this->row(row * this->Map.spacing);
+    bool any[2] = { false, false };
+    std::uint8_t kinds[TileSize];
+    for (int c = 0; c < TileSize; ++c)
+    {
+      kinds[c] = pixels[std::min(first + c * this->Map.spacing, this->Map.lastColumn)];
+      any[kinds[c]] = true;
+    }
+    float distances[TileSize];
+    for (const std::uint8_t kind : { 0, 1 })
+    {
+      if (!any[kind])
+      {
+        continue;
+      }
+      this->isShort() ? measurePiece(offset, this->Columns, this->Short[kind], distances)
+                      : measurePiece(offset, this->Columns, this->Long[kind], distances);
+      for (int c = 0; c < TileSize; ++c)
+      {
+        const float distance = std::min(distances[c], this->Map.reach);
+        out[c] = kinds[c] == kind ? (kind != 0 ? distance : -distance) : out[c];
+      }
+    }
   }
 
   const std::uint8_t* Object;
@@ -407,8 +508,10 @@ private:
   PieceColumns Columns;
   std::vector<std::uint8_t> Tiles;
   std::vector<std::int16_t> InColumn; ///< a row of pixels for each row of samples
-  SquareBuffers<std::int16_t> Short;
-  SquareBuffers<std::int32_t> Long; ///< for limits that are too long for the others
+  std::vector<std::uint8_t> Kinds;    ///< of a row's pieces
+  int FirstPiece = 0;                 ///< that there are squares of
+  RowSquares<std::int16_t> Short[2];
+  RowSquares<std::int32_t> Long[2]; ///< for limits that are too long for the others
 };
 
 namespace

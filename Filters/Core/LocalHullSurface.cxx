@@ -302,7 +302,7 @@ void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const 
   const CornerShell& shell = extended ? *extended : labels.shell();
   const std::vector<std::uint8_t> inside = labelsOf(labels, shell, execution);
   execution.checkpoint(0.2);
-  LatticeSurface contoured = contour(shell, inside, execution);
+  const LatticeSurface contoured = contour(shell, inside, execution);
   const std::vector<double> fractions = place.fractions(shell, contoured, execution);
   execution.checkpoint(0.4);
   surface.mesh = placePoints(lattice, shell, contoured, fractions, options.singlePrecision, execution);

@@ -50,7 +50,7 @@ double unionAt(const std::vector<LocalHull>& hulls, const Vector3& p)
   return least;
 }
 
-Mesh meshOf(CombinedSurface combined, const Lattice& lattice)
+Mesh meshOf(const CombinedSurface& combined, const Lattice& lattice)
 {
   Execution execution;
   return placePoints(lattice, combined.shell, combined.surface, combined.fractions, false, execution);

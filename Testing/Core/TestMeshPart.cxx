@@ -44,7 +44,7 @@ TEST(CodeCursor, FindsWhatIsThereAndNothingElse)
   std::vector<std::uint64_t> codes;
   for (std::uint64_t n = 0; n < 4000; n += 1 + n % 7)
   {
-    codes.push_back(n * n / 3);
+    codes.push_back(n * n / 3 + n);
   }
   CodeCursor all(codes), middle(codes.data() + 100, codes.data() + 300);
   std::size_t found = 0;
