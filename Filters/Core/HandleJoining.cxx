@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HandleJoining.h"
 
-#include "Error.h"
 #include "CodeCursor.h"
+#include "Error.h"
 #include "LabelCache.h"
 #include "ShellPaths.h"
 #include "SimplePoint.h"
 
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
 #include <string>
 
 namespace silhouette
@@ -28,13 +29,48 @@ void check(const HandleJoiningOptions& options)
   }
 }
 
+/** What lies around a corner. */
+struct CornerSurroundings
+{
+  std::array<std::int32_t, 27> corners; ///< of the shell, or -1
+  std::uint32_t beyond = 0;             ///< the points that are no corners of the shell and inside, a bit each
+  std::array<std::uint32_t, 8> cells;   ///< the surviving ones of the shell
+  int cellCount = 0;
+};
+
+/** Of some corners of the shell, each in its place; found side by side, in the order of the lattice, where neighbours are found fastest. */
+std::vector<CornerSurroundings> surroundings(const LatticeLabels& labels, const std::uint32_t* corners, std::size_t count, Execution& execution)
+{
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), std::uint32_t(0));
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return corners[a] < corners[b]; });
+  std::vector<CornerSurroundings> found(count);
+  execution.forRanges(count, 256,
+    [&](std::size_t first, std::size_t last)
+    {
+      CodeCursor shell(labels.shell().corners);
+      LabelCache beyond(labels);
+      for (std::size_t n = first; n < last; ++n)
+      {
+        CornerSurroundings& own = found[order[n]];
+        const LatticePoint p = fromMorton(labels.shell().corners[corners[order[n]]]);
+        for (int a = 0; a < 27; ++a)
+        {
+          const LatticePoint q = neighbourOf(p, a);
+          own.corners[std::size_t(a)] = std::int32_t(shell.find(mortonCode(q)));
+          own.beyond |= std::uint32_t(own.corners[std::size_t(a)] < 0 && beyond.insideAt(q)) << a;
+        }
+        own.cellCount = labels.cellsAround(p, own.cells);
+      }
+    });
+  return found;
+}
+
 class Joining
 {
 public:
   Joining(const LatticeLabels& labels, int loop)
     : Labels(labels)
-    , Shell(labels.shell().corners)
-    , Beyond(labels)
     , Loop(loop)
     , Taken(labels.inside())
     , From(Taken.size(), Nobody)
@@ -43,9 +79,9 @@ public:
   }
 
   /** Take a corner that the field allows, unless it joins parts that meet anyway; what it joins beyond that is noted. */
-  void grow(std::uint32_t corner)
+  void grow(std::uint32_t corner, const CornerSurroundings& around)
   {
-    const auto parts = this->partsAround(corner, {});
+    const auto parts = this->partsAround(around, {});
     if (!parts.empty() && !this->anyMeet(parts))
     {
       this->take(corner, parts);
@@ -53,21 +89,19 @@ public:
   }
 
   /** Take a corner if it joins survivors that touch in it and do not meet otherwise. */
-  void join(std::uint32_t corner)
+  void join(std::uint32_t corner, const CornerSurroundings& around)
   {
-    std::array<std::uint32_t, 8> cells;
-    const int count = this->Labels.cellsAround(fromMorton(this->Labels.shell().corners[corner]), cells);
-    if (count < 2)
+    if (around.cellCount < 2)
     {
       return;
     }
     std::vector<std::uint32_t> ends;
-    for (int n = 0; n < count; ++n)
+    for (int n = 0; n < around.cellCount; ++n)
     {
-      const auto& corners = this->Labels.shell().cellCorners[cells[n]];
+      const auto& corners = this->Labels.shell().cellCorners[around.cells[std::size_t(n)]];
       ends.insert(ends.end(), corners.begin(), corners.end());
     }
-    const auto parts = this->partsAround(corner, ends);
+    const auto parts = this->partsAround(around, ends);
     if (parts.size() > 1 && !this->anyMeet(parts))
     {
       this->take(corner, parts);
@@ -86,15 +120,13 @@ private:
   static constexpr std::uint32_t Nobody = 0xffffffffu;
 
   /** A corner, of `among` if that is not empty, of each part around a corner; nothing where a part has none. */
-  std::vector<std::uint32_t> partsAround(std::uint32_t corner, const std::vector<std::uint32_t>& among)
+  std::vector<std::uint32_t> partsAround(const CornerSurroundings& surroundings, const std::vector<std::uint32_t>& among)
   {
     Neighbourhood labels;
-    std::array<std::ptrdiff_t, 27> around;
+    const auto& around = surroundings.corners;
     for (int n = 0; n < 27; ++n)
     {
-      const LatticePoint p = neighbourOf(fromMorton(this->Labels.shell().corners[corner]), n);
-      around[n] = this->Shell.find(mortonCode(p));
-      labels[n] = n != 13 && (around[n] >= 0 ? this->Taken[around[n]] != 0 : this->Beyond.insideAt(p));
+      labels[n] = n != 13 && (around[n] >= 0 ? this->Taken[std::size_t(around[n])] != 0 : (surroundings.beyond >> n & 1) != 0);
     }
     const TopologicalNumbers numbers = topologicalNumbers(labels);
     std::vector<std::uint32_t> parts(numbers.inside, Nobody); // a corner of each, of the shell
@@ -143,8 +175,6 @@ private:
   }
 
   const LatticeLabels& Labels;
-  CodeCursor Shell;
-  LabelCache Beyond; ///< of points that are no corners of the shell
   int Loop;
   std::vector<std::uint8_t> Taken;
   std::vector<std::uint32_t> From; ///< towards the solid
@@ -176,19 +206,15 @@ std::vector<std::uint64_t> handleJoints(
   std::stable_sort(corners.begin(), corners.end(),
     [&](std::uint32_t a, std::uint32_t b) { return labels.support()[a] > labels.support()[b]; });
   Joining joining(labels, loopSteps(labels.octree().lattice, options));
-  for (std::size_t n = 0; n < corners.size(); ++n)
+  constexpr std::size_t Batch = 1 << 17; // what lies around so many is remembered, some 20 MB
+  for (std::size_t first = 0; first < corners.size(); first += Batch)
   {
-    if (n % 4096 == 0)
+    execution.checkpoint(double(first) / double(corners.size()));
+    const auto around = surroundings(labels, &corners[first], std::min(Batch, corners.size() - first), execution);
+    for (std::size_t n = 0; n < around.size(); ++n)
     {
-      execution.checkpoint(double(n) / double(corners.size()));
-    }
-    if (labels.support()[corners[n]] > least)
-    {
-      joining.grow(corners[n]);
-    }
-    else
-    {
-      joining.join(corners[n]);
+      const std::uint32_t corner = corners[first + n];
+      labels.support()[corner] > least ? joining.grow(corner, around[n]) : joining.join(corner, around[n]);
     }
   }
   execution.checkpoint(1.0);

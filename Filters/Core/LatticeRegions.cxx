@@ -2,6 +2,7 @@
 #include "LatticeRegions.h"
 
 #include "BlockBits.h"
+#include "CodeCursor.h"
 #include "IntersectionAround.h"
 #include "LabelCache.h"
 #include "MarchingCubesTable.h"
@@ -177,7 +178,7 @@ CursorsAround cursorsAround(const Octree& octree)
  * Join an outside corner of a background octant that a field's solid reaches into: not all of its points meet in it, so with what lies beside the
  * corner along lattice edges, a corner of the shell or, standing for all other points outside, the octant.
  */
-void joinWithinOctant(const LatticeLabels& labels, const LatticePoint& p, std::uint32_t corner, std::uint32_t octant,
+void joinWithinOctant(LabelCache& labels, CodeCursor& corners, const LatticePoint& p, std::uint32_t corner, std::uint32_t octant,
   const LatticePoint& lowest, std::int32_t size, LatticeRegions& regions)
 {
   const auto within = [size](std::int32_t x, std::int32_t low) { return x >= low && x <= low + size; };
@@ -186,7 +187,7 @@ void joinWithinOctant(const LatticeLabels& labels, const LatticePoint& p, std::u
     const LatticePoint q = neighbourOf(p, n);
     if (within(q.i, lowest.i) && within(q.j, lowest.j) && within(q.k, lowest.k) && !labels.insideAt(q))
     {
-      const std::ptrdiff_t other = labels.shell().find(mortonCode(q));
+      const std::ptrdiff_t other = corners.find(mortonCode(q));
       regions.sets.unite(corner, other >= 0 ? std::uint32_t(other) : octant);
     }
   }
@@ -322,14 +323,16 @@ std::vector<std::uint8_t> refutedOctants(const LatticeLabels& labels, OctantStat
   return refuted;
 }
 
-/** Call `work(corner, cursors)` for every corner of the shell, perhaps side by side, with cursors for the cells around it. */
-template <typename Work>
-void forCorners(const Octree& octree, const CornerShell& shell, Execution& execution, const Work& work)
+/** Call `work(corner, cursors)` for every corner of the shell, perhaps side by side, with cursors for the cells around it; each range by a worker that
+ * `makeWorker` makes. */
+template <typename MakeWorker>
+void forCorners(const Octree& octree, const CornerShell& shell, Execution& execution, const MakeWorker& makeWorker)
 {
   execution.forRanges(shell.corners.size(), RangeGrain,
     [&](std::size_t first, std::size_t last)
     {
       CursorsAround octants = cursorsAround(octree);
+      auto work = makeWorker();
       for (std::size_t c = first; c < last; ++c)
       {
         work(c, octants);
@@ -346,19 +349,22 @@ std::vector<std::atomic<std::uint8_t>> enteredOctants(const LatticeLabels& label
     return entered;
   }
   forCorners(labels.octree(), labels.shell(), execution,
-    [&](std::size_t c, CursorsAround& octants)
+    [&]
     {
-      if (labels.inside()[c])
+      return [&](std::size_t c, CursorsAround& octants)
       {
-        forOctantsAround(octants, labels.octree(), labels.shell().corners[c], 0xff, OctantState::Background,
-          [&](const Octree::Location& at)
-          {
-            if (at.generation < labels.octree().lattice.depth)
+        if (labels.inside()[c])
+        {
+          forOctantsAround(octants, labels.octree(), labels.shell().corners[c], 0xff, OctantState::Background,
+            [&](const Octree::Location& at)
             {
-              entered[regions.place(at.generation, at.index)].store(1, std::memory_order_relaxed);
-            }
-          });
-      }
+              if (at.generation < labels.octree().lattice.depth)
+              {
+                entered[regions.place(at.generation, at.index)].store(1, std::memory_order_relaxed);
+              }
+            });
+        }
+      };
     });
   return entered;
 }
@@ -441,15 +447,19 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside, Executio
   const std::vector<std::uint8_t> around = intersectionAround(octree, shell, execution);
   const bool someTell = isWhole(octree) && refuted.empty();
   forCorners(octree, shell, execution,
-    [&](std::size_t c, CursorsAround& octants)
+    [&]
     {
-      const LatticePoint p = fromMorton(shell.corners[c]);
-      if (!inside && octree.lattice.onBorder(p))
+      return [&, cache = LabelCache(labels), corners = CodeCursor(shell.corners)](std::size_t c, CursorsAround& octants) mutable
       {
-        regions.sets.unite(std::uint32_t(c), regions.beyond);
-      }
-      if ((labels.inside()[c] != 0) == inside)
-      {
+        const LatticePoint p = fromMorton(shell.corners[c]);
+        if (!inside && octree.lattice.onBorder(p))
+        {
+          regions.sets.unite(std::uint32_t(c), regions.beyond);
+        }
+        if ((labels.inside()[c] != 0) != inside)
+        {
+          return;
+        }
         const std::uint8_t asked = someTell ? tellingCells(around[c]) : std::uint8_t(~around[c]);
         forOctantsAround(octants, octree, shell.corners[c], asked, state,
           [&](const Octree::Location& at)
@@ -458,7 +468,7 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside, Executio
             const std::size_t place = regions.place(at.generation, at.index);
             if (!entered.empty() && entered[place].load(std::memory_order_relaxed) != 0)
             {
-              joinWithinOctant(labels, p, std::uint32_t(c), octant, lowestCell(octree, at.generation, at.index),
+              joinWithinOctant(cache, corners, p, std::uint32_t(c), octant, lowestCell(octree, at.generation, at.index),
                 std::int32_t(1) << (octree.lattice.depth - at.generation), regions);
             }
             else if (refuted.empty() || !refuted[place])
@@ -466,7 +476,7 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside, Executio
               regions.sets.unite(std::uint32_t(c), octant);
             }
           });
-      }
+      };
     });
   return regions;
 }
@@ -573,11 +583,14 @@ LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell, 
   const std::vector<std::uint8_t> around = intersectionAround(octree, shell, execution);
   const bool someTell = isWhole(octree);
   forCorners(octree, shell, execution,
-    [&](std::size_t c, CursorsAround& octants)
+    [&]
     {
-      const std::uint8_t asked = someTell ? tellingCells(around[c]) : std::uint8_t(~around[c]);
-      forOctantsAround(octants, octree, shell.corners[c], asked, OctantState::Inside,
-        [&](const Octree::Location& at) { regions.sets.unite(std::uint32_t(c), regions.octant(at.generation, at.index)); });
+      return [&](std::size_t c, CursorsAround& octants)
+      {
+        const std::uint8_t asked = someTell ? tellingCells(around[c]) : std::uint8_t(~around[c]);
+        forOctantsAround(octants, octree, shell.corners[c], asked, OctantState::Inside,
+          [&](const Octree::Location& at) { regions.sets.unite(std::uint32_t(c), regions.octant(at.generation, at.index)); });
+      };
     });
   return regions;
 }

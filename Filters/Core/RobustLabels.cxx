@@ -63,6 +63,25 @@ std::vector<std::uint64_t> disputedCells(const Octree& octree, const BrickField&
 }
 
 /**
+ * Which points of a brick have a neighbour in a brick that is not there: by whether they are first, between or last along each axis. `present`: of the
+ * bricks around.
+ */
+std::array<bool, 27> pointsWhereBricksEnd(const std::array<bool, 27>& present)
+{
+  std::array<bool, 27> ends{};
+  for (int point = 0; point < 27; ++point)
+  {
+    for (int n = 0; n < 27; ++n)
+    {
+      const auto step = [](int side, int towards) { return side == towards ? side : 1; }; // out of the brick at its own side alone
+      const int i = step(point % 3, n % 3), j = step(point / 3 % 3, n / 3 % 3), k = step(point / 9, n / 9);
+      ends[std::size_t(point)] = ends[std::size_t(point)] || !present[std::size_t(i + 3 * j + 9 * k)];
+    }
+  }
+  return ends;
+}
+
+/**
  * Where the bricks end, the field says what the octree says, so that no surface leaves them except through the octree's own
  * intersection octants.
  */
@@ -84,23 +103,18 @@ void pinWhereBricksEnd(const Octree& octree, BrickField& field, Execution& execu
         {
           continue;
         }
+        const auto ends = pointsWhereBricksEnd(present);
         for (std::uint64_t local = 0; local < BrickField::BrickPoints; ++local)
         {
           const LatticePoint p = fromMorton(local);
-          const auto within = [](int x) { return x > 0 && x < BrickField::BrickSize - 1; };
-          if (within(p.i) && within(p.j) && within(p.k))
+          const auto side = [](int x) { return x == 0 ? 0 : x < BrickField::BrickSize - 1 ? 1 : 2; };
+          if (!ends[std::size_t(side(p.i) + 3 * side(p.j) + 9 * side(p.k))])
           {
             continue;
           }
-          bool end = false;
-          for (int n = 0; n < 27 && !end; ++n)
-          {
-            const auto side = [](int x, int step) { return x + step < 0 ? 0 : (x + step >= BrickField::BrickSize ? 2 : 1); };
-            end = !present[side(p.i, n % 3 - 1) + 3 * side(p.j, n / 3 % 3 - 1) + 9 * side(p.k, n / 9 - 1)];
-          }
           float& value = field.values()[brick * BrickField::BrickPoints + local];
           const LatticePoint at = fromMorton(field.code(brick * BrickField::BrickPoints + local));
-          if (end && (value > 0.0f) != octree.touchesInside(at))
+          if ((value > 0.0f) != octree.touchesInside(at))
           {
             value = value > 0.0f ? -0.5f : 0.5f;
           }
