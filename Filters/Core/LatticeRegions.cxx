@@ -223,8 +223,9 @@ struct FirstOfParts
 };
 
 /**
- * Of the cells around a point that are no intersection octants, those that tell of all. Inside and background octants share no point, so that what meets
- * across faces has one state; and in that state it has been joined, unless some of it is refuted or an octree has no octant there.
+ * Of the cells around a point that are no intersection octants, those that tell of all. Where an octree is carved inside and background octants share no
+ * point, so that what meets across faces has one state; and in that state it has been joined, unless some of it is refuted or an octree has no octant
+ * there.
  */
 std::uint8_t tellingCells(std::uint8_t intersection)
 {
@@ -238,17 +239,18 @@ bool isWhole(const Octree& octree)
 }
 
 /**
- * Call `meet(location)` for the octants of one state that touch a lattice point, of those in the `asked` cells around it, a bit each. Cells of one parent
- * are looked for once.
+ * Call `meet(location)` for the octants of one state that touch a lattice point, of those in the `asked` cells around it, a bit each; returns
+ * which of these have another state. Cells of one parent are looked for once.
  */
 template <typename Meet>
-void forOctantsAround(
+std::uint8_t forOctantsAround(
   CursorsAround& octants, const Octree& octree, std::uint64_t corner, std::uint8_t asked, OctantState state, const Meet& meet)
 {
   const Lattice& lattice = octree.lattice;
+  std::uint8_t others = 0;
   if (asked == 0)
   {
-    return;
+    return others;
   }
   const LatticePoint p = fromMorton(corner);
   const bool onBorder = lattice.onBorder(p);
@@ -279,7 +281,12 @@ void forOctantsAround(
     {
       meet(location);
     }
+    else if (location.generation >= 0)
+    {
+      others |= std::uint8_t(1u << n);
+    }
   }
+  return others;
 }
 
 /**
@@ -460,22 +467,24 @@ LatticeRegions connectRegions(const LatticeLabels& labels, bool inside, Executio
         {
           return;
         }
-        const std::uint8_t asked = someTell ? tellingCells(around[c]) : std::uint8_t(~around[c]);
-        forOctantsAround(octants, octree, shell.corners[c], asked, state,
-          [&](const Octree::Location& at)
+        const auto meet = [&](const Octree::Location& at)
+        {
+          const std::uint32_t octant = regions.octant(at.generation, at.index);
+          const std::size_t place = regions.place(at.generation, at.index);
+          if (!entered.empty() && entered[place].load(std::memory_order_relaxed) != 0)
           {
-            const std::uint32_t octant = regions.octant(at.generation, at.index);
-            const std::size_t place = regions.place(at.generation, at.index);
-            if (!entered.empty() && entered[place].load(std::memory_order_relaxed) != 0)
-            {
-              joinWithinOctant(cache, corners, p, std::uint32_t(c), octant, lowestCell(octree, at.generation, at.index),
-                std::int32_t(1) << (octree.lattice.depth - at.generation), regions);
-            }
-            else if (refuted.empty() || !refuted[place])
-            {
-              regions.sets.unite(std::uint32_t(c), octant);
-            }
-          });
+            joinWithinOctant(cache, corners, p, std::uint32_t(c), octant, lowestCell(octree, at.generation, at.index),
+              std::int32_t(1) << (octree.lattice.depth - at.generation), regions);
+          }
+          else if (refuted.empty() || !refuted[place])
+          {
+            regions.sets.unite(std::uint32_t(c), octant);
+          }
+        };
+        if (!someTell || forOctantsAround(octants, octree, shell.corners[c], tellingCells(around[c]), state, meet) != 0)
+        {
+          forOctantsAround(octants, octree, shell.corners[c], std::uint8_t(~around[c]), state, meet);
+        }
       };
     });
   return regions;
@@ -581,14 +590,12 @@ LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell, 
       }
     });
   const std::vector<std::uint8_t> around = intersectionAround(octree, shell, execution);
-  const bool someTell = isWhole(octree);
   forCorners(octree, shell, execution,
     [&]
     {
       return [&](std::size_t c, CursorsAround& octants)
       {
-        const std::uint8_t asked = someTell ? tellingCells(around[c]) : std::uint8_t(~around[c]);
-        forOctantsAround(octants, octree, shell.corners[c], asked, OctantState::Inside,
+        forOctantsAround(octants, octree, shell.corners[c], std::uint8_t(~around[c]), OctantState::Inside,
           [&](const Octree::Location& at) { regions.sets.unite(std::uint32_t(c), regions.octant(at.generation, at.index)); });
       };
     });
