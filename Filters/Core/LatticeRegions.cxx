@@ -6,6 +6,7 @@
 #include "IntersectionAround.h"
 #include "LabelCache.h"
 #include "MarchingCubesTable.h"
+#include "OctantsAround.h"
 #include "UnionFind.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace silhouette
 namespace
 {
 
-constexpr std::size_t RangeGrain = 4096; ///< octants, cells or corners worth a thread
+constexpr std::size_t RangeGrain = 4096; ///< octants or cells worth a thread
 
 LatticePoint lowestCell(const Octree& octree, int generation, std::size_t index)
 {
@@ -165,15 +166,6 @@ void joinOctants(const Octree& octree, OctantState state, bool beyond, const std
   forOctants(octree, state, execution, [&] { return OctantJoining(octree, state, beyond, refuted, regions); });
 }
 
-/** One for each cell around a corner: going through corners in Morton order, each stays in the same octants for long. */
-using CursorsAround = std::array<OctantCursor, 8>;
-
-CursorsAround cursorsAround(const Octree& octree)
-{
-  const OctantCursor c(octree);
-  return { c, c, c, c, c, c, c, c };
-}
-
 /**
  * Join an outside corner of a background octant that a field's solid reaches into: not all of its points meet in it, so with what lies beside the
  * corner along lattice edges, a corner of the shell or, standing for all other points outside, the octant.
@@ -191,102 +183,6 @@ void joinWithinOctant(LabelCache& labels, CodeCursor& corners, const LatticePoin
       regions.sets.unite(corner, other >= 0 ? std::uint32_t(other) : octant);
     }
   }
-}
-
-/** For each set of the cells around a point, a bit each: the first of those that meet across faces. */
-struct FirstOfParts
-{
-  std::uint8_t cells[256];
-
-  FirstOfParts()
-  {
-    for (unsigned members = 0; members < 256; ++members)
-    {
-      UnionFind sets(8);
-      for (unsigned n = 0; n < 8; ++n)
-      {
-        for (unsigned step = 1; step < 8; step *= 2)
-        {
-          if ((members >> n & 1) != 0 && (n & step) == 0 && (members >> (n + step) & 1) != 0)
-          {
-            sets.unite(n, n + step);
-          }
-        }
-      }
-      this->cells[members] = 0;
-      for (unsigned n = 0; n < 8; ++n)
-      {
-        this->cells[members] |= std::uint8_t(unsigned((members >> n & 1) != 0 && sets.find(n) == n) << n);
-      }
-    }
-  }
-};
-
-/**
- * Of the cells around a point that are no intersection octants, those that tell of all. Where an octree is carved inside and background octants share no
- * point, so that what meets across faces has one state; and in that state it has been joined, unless some of it is refuted or an octree has no octant
- * there.
- */
-std::uint8_t tellingCells(std::uint8_t intersection)
-{
-  static const FirstOfParts first;
-  return first.cells[std::uint8_t(~intersection)];
-}
-
-bool isWhole(const Octree& octree)
-{
-  return octree.generations[std::size_t(octree.treeGeneration)].size() == std::size_t(1) << 3 * octree.treeGeneration;
-}
-
-/**
- * Call `meet(location)` for the octants of one state that touch a lattice point, of those in the `asked` cells around it, a bit each; returns
- * which of these have another state. Cells of one parent are looked for once.
- */
-template <typename Meet>
-std::uint8_t forOctantsAround(
-  CursorsAround& octants, const Octree& octree, std::uint64_t corner, std::uint8_t asked, OctantState state, const Meet& meet)
-{
-  const Lattice& lattice = octree.lattice;
-  std::uint8_t others = 0;
-  if (asked == 0)
-  {
-    return others;
-  }
-  const LatticePoint p = fromMorton(corner);
-  const bool onBorder = lattice.onBorder(p);
-  const unsigned odd = unsigned(corner & 7); // on these axes the cells on either side have one parent
-  std::array<Octree::Location, 8> firsts;
-  unsigned known = 0;
-  for (unsigned n = 0; n < 8; ++n)
-  {
-    if ((asked >> n & 1) == 0)
-    {
-      continue;
-    }
-    const unsigned first = n | odd;
-    if (!(known >> first & 1))
-    {
-      known |= 1u << first;
-      const LatticePoint o = cornerOffset(int(first));
-      const LatticePoint cell{ p.i - o.i, p.j - o.j, p.k - o.k };
-      firsts[first] = onBorder ? octants[first].locate(cell) : octants[first].locate(mortonCode(cell));
-    }
-    Octree::Location location = firsts[first];
-    if (location.generation == lattice.depth)
-    {
-      location.index += first & ~n;
-      location.state = octree.last().state[location.index];
-    }
-    if (location.generation >= 0 && location.state == state)
-    {
-      meet(location);
-    }
-    else if (location.generation >= 0)
-    {
-      others |= std::uint8_t(1u << n);
-    }
-  }
-  return others;
 }
 
 /**
@@ -328,23 +224,6 @@ std::vector<std::uint8_t> refutedOctants(const LatticeLabels& labels, OctantStat
       };
     });
   return refuted;
-}
-
-/** Call `work(corner, cursors)` for every corner of the shell, perhaps side by side, with cursors for the cells around it; each range by a worker that
- * `makeWorker` makes. */
-template <typename MakeWorker>
-void forCorners(const Octree& octree, const CornerShell& shell, Execution& execution, const MakeWorker& makeWorker)
-{
-  execution.forRanges(shell.corners.size(), RangeGrain,
-    [&](std::size_t first, std::size_t last)
-    {
-      CursorsAround octants = cursorsAround(octree);
-      auto work = makeWorker();
-      for (std::size_t c = first; c < last; ++c)
-      {
-        work(c, octants);
-      }
-    });
 }
 
 /** Background octants of several leaf cells with an inside corner of the shell among their points; nothing where the labels have no field. */

@@ -2,7 +2,7 @@
 #include "LocalHullSurface.h"
 
 #include "CellSafety.h"
-#include "EdgeCrossing.h"
+#include "CrossingPlacer.h"
 #include "LatticeRegions.h"
 #include "LatticeSurface.h"
 #include "RobustLabels.h"
@@ -19,7 +19,6 @@ namespace silhouette
 namespace
 {
 
-constexpr std::uint64_t AlongX = 0x1249249249249249ULL; ///< the bits of x in a Morton code
 constexpr double CoverReach = 3.0; ///< octants: corners farther outside than that are alike
 
 void check(const Octree& octree, const PreparedViews* views, const LocalHullOptions& options)
@@ -53,110 +52,6 @@ std::vector<std::uint64_t> codesOf(const CornerShell& shell, const std::vector<s
   std::sort(codes.begin(), codes.end());
   return codes;
 }
-
-/** Where the surface crosses an edge: as field, surface or votes say, near the corner if that was added. */
-class CrossingPlacer
-{
-public:
-  CrossingPlacer(const LatticeLabels& labels, const SurfaceCrossings& crossings, const PreparedViews* views,
-    std::vector<std::uint64_t> added, double coverOffset)
-    : Crossings(crossings)
-    , Field(labels.field())
-    , Added(std::move(added))
-    , BackgroundVotes(labels.octree().backgroundVotes)
-    , CoverOffset(coverOffset)
-  {
-    if (views)
-    {
-      this->Views.emplace(*views, labels.octree().lattice);
-    }
-  }
-
-  /** For each crossed edge of a surface of the shell, the fraction of it from its inside end. */
-  std::vector<double> fractions(const CornerShell& shell, const LatticeSurface& contoured, Execution& execution) const
-  {
-    std::vector<double> fractions(contoured.edges.size());
-    const std::vector<std::uint8_t> isAdded = this->addedCorners(shell);
-    execution.forRanges(fractions.size(), 256,
-      [&](std::size_t first, std::size_t last)
-      {
-        // Crossings are in the edges' own order.
-        const CrossedEdge& start = contoured.edges[first];
-        Known known = this->from(keyOf(shell.corners[start.inside], shell.corners[start.outside]));
-        for (std::size_t e = first; e < last; ++e)
-        {
-          const CrossedEdge& edge = contoured.edges[e];
-          const std::uint64_t inside = shell.corners[edge.inside], outside = shell.corners[edge.outside];
-          fractions[e] = isAdded[edge.inside] ? this->CoverOffset
-                                              : std::clamp(this->Field ? this->inField(inside, outside)
-                                                                       : this->onSurface(inside, outside, known),
-                                                  CrossingMargin, 1.0 - CrossingMargin);
-        }
-      });
-    return fractions;
-  }
-
-private:
-  using Known = std::vector<LatticeCrossing>::const_iterator;
-
-  /** A 1 for each corner of the shell that was added. */
-  std::vector<std::uint8_t> addedCorners(const CornerShell& shell) const
-  {
-    std::vector<std::uint8_t> isAdded(shell.corners.size(), 0);
-    for (const std::uint64_t corner : this->Added)
-    {
-      isAdded[std::size_t(shell.find(corner))] = 1;
-    }
-    return isAdded;
-  }
-
-  double inField(std::uint64_t inside, std::uint64_t outside) const
-  {
-    const std::ptrdiff_t a = this->Field->find(inside), b = this->Field->find(outside);
-    if (a < 0 || b < 0)
-    {
-      return 0.5;
-    }
-    const double from = this->Field->values()[a], to = this->Field->values()[b];
-    return from > 0.0 && to <= 0.0 ? from / (from - to) : 0.5;
-  }
-
-  static std::uint64_t keyOf(std::uint64_t end, std::uint64_t other)
-  {
-    const std::uint64_t differing = end ^ other;
-    return edgeKey(std::min(end, other), (differing & AlongX) != 0 ? 0 : (differing & AlongX << 1) != 0 ? 1 : 2);
-  }
-
-  /** The first crossing that is not before an edge. */
-  Known from(std::uint64_t key) const
-  {
-    return std::lower_bound(this->Crossings.crossings.begin(), this->Crossings.crossings.end(), key,
-      [](const LatticeCrossing& crossing, std::uint64_t edge) { return crossing.edge < edge; });
-  }
-
-  /** `known` is before or at the edge's place among the crossings, and is moved there. */
-  double onSurface(std::uint64_t inside, std::uint64_t outside, Known& known) const
-  {
-    const std::uint64_t key = keyOf(inside, outside);
-    const auto end = this->Crossings.crossings.end();
-    while (known != end && known->edge < key)
-    {
-      ++known;
-    }
-    if (known != end && known->edge == key)
-    {
-      return inside < outside ? known->fraction : 1.0 - known->fraction;
-    }
-    return this->Views ? exactCrossing(*this->Views, fromMorton(inside), fromMorton(outside), this->BackgroundVotes) : 0.5;
-  }
-
-  const SurfaceCrossings& Crossings;
-  std::optional<LatticeViews> Views;
-  const BrickField* Field;
-  std::vector<std::uint64_t> Added; ///< ascending
-  int BackgroundVotes;
-  double CoverOffset;
-};
 
 /** The shell of the survivors and what bridges their components. */
 struct Survivors

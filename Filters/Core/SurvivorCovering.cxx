@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurvivorCovering.h"
 
-#include "BlockBits.h"
 #include "CodeCursor.h"
 #include "LabelCache.h"
 #include "LatticeRegions.h"
 #include "ShellPaths.h"
 #include "SimplePoint.h"
+#include "SomeCells.h"
 
 #include <algorithm>
 #include <deque>
@@ -41,60 +41,6 @@ struct Candidate
   {
     return { int(this->effect), -this->support, -this->covers, this->corner };
   }
-};
-
-/** Some cells of a shell, to be found around a lattice point. */
-class SomeCells
-{
-public:
-  /** `cells` ascending. */
-  SomeCells(const CornerShell& shell, const std::vector<std::uint32_t>& cells)
-    : Cells(cells)
-  {
-    for (std::uint32_t n = 0; n < cells.size(); ++n)
-    {
-      const std::uint64_t code = shell.cells[cells[n]];
-      if (this->Blocks.empty() || this->Blocks.back() != code >> 6)
-      {
-        this->Blocks.push_back(code >> 6);
-        this->Bits.push_back(0);
-        this->First.push_back(n);
-      }
-      this->Bits.back() |= std::uint64_t(1) << (code & 63);
-    }
-  }
-
-  /** Call `work(cell)` for those of the 4 x 4 x 4 cells around a point, in the order of their last, middle and first coordinate. */
-  template <typename Work> void forCellsAround(const LatticePoint& p, const Work& work) const
-  {
-    const LatticePoint lowest{ p.i - BlockSide / 2, p.j - BlockSide / 2, p.k - BlockSide / 2 };
-    const LatticePoint block{ lowest.i >> 2, lowest.j >> 2, lowest.k >> 2 };
-    std::array<std::ptrdiff_t, 8> found;
-    bool any = false;
-    for (int n = 0; n < 8; ++n)
-    {
-      const LatticePoint b = block + cornerOffset(n);
-      found[std::size_t(n)] = std::min({ b.i, b.j, b.k }) < 0 ? -1 : findBlock(this->Blocks, mortonCode(b));
-      any = any || found[std::size_t(n)] >= 0;
-    }
-    for (int n = 0; n < 64 && any; ++n)
-    {
-      const LatticePoint q = lowest + LatticePoint{ n % 4, n / 4 % 4, n / 16 };
-      const LatticePoint within{ (q.i >> 2) - block.i, (q.j >> 2) - block.j, (q.k >> 2) - block.k };
-      const std::ptrdiff_t at = found[std::size_t(mortonCode(within))];
-      const std::uint64_t bit = std::uint64_t(1) << mortonCode({ q.i & 3, q.j & 3, q.k & 3 });
-      if (at >= 0 && (this->Bits[std::size_t(at)] & bit) != 0)
-      {
-        work(this->Cells[this->First[std::size_t(at)] + std::size_t(countBits(this->Bits[std::size_t(at)] & (bit - 1)))]);
-      }
-    }
-  }
-
-private:
-  const std::vector<std::uint32_t>& Cells;
-  std::vector<std::uint64_t> Blocks; ///< Morton codes of blocks with such cells, ascending
-  std::vector<std::uint64_t> Bits;   ///< those of a block
-  std::vector<std::uint32_t> First;  ///< of a block, among the cells
 };
 
 class Covering
