@@ -22,6 +22,7 @@ set(SILHOUETTE_VTK_COMPONENTS
   IOPLY
   IOXML
   ImagingCore
+  ParallelCore
   RenderingCore
   RenderingOpenGL2
 )

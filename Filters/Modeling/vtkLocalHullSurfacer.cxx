@@ -8,19 +8,26 @@
 #include "OctreeSharing.h"
 #include "PieceRequests.h"
 #include "PreparedViewsSharing.h"
+#include "RankSharing.h"
 #include "vtkSilhouetteExecution.h"
 
 #include "vtkCellData.h"
 #include "vtkDemandDrivenPipeline.h"
+#include "vtkExecutive.h"
 #include "vtkHyperTreeGrid.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <optional>
 
 using namespace silhouette::modeling;
 
@@ -49,9 +56,20 @@ struct Inputs
   }
 };
 
-void storeSurface(const silhouette::LocalHullSurface& found, const MeshOutput& output, vtkPolyData* surface)
+/** The surface's counts, and of its triangles those of a piece: an even share, in order. */
+void storeSurface(const silhouette::LocalHullSurface& found, const silhouette::Piece& piece,
+                  const MeshOutput& output, vtkPolyData* surface)
 {
-  storeMesh(found.mesh, output, surface);
+  const std::size_t triangles = found.mesh.triangles.size();
+  if (piece.count > 1)
+  {
+    storeMesh(silhouette::selectTriangles(found.mesh, silhouette::rangeOfPiece(triangles, piece)), output,
+              surface);
+  }
+  else
+  {
+    storeMesh(found.mesh, output, surface);
+  }
   setField(surface, "Survivors", found.survivors);
   setField(surface, "CoveredOctants", found.coveredOctants);
   setField(surface, "CoveringCorners", found.coveringCorners);
@@ -70,15 +88,6 @@ void storeSurface(const silhouette::LocalHullSurface& found, const MeshOutput& o
   setField(surface, "Shift", found.shift);
   setField(surface, "Alignment", found.alignment);
   setField(surface, "RepairedPixels", found.repairedPixels);
-}
-
-/** The triangles of a piece: an even share, in order. */
-void takePiece(silhouette::Mesh& mesh, const silhouette::Piece& piece)
-{
-  if (piece.count > 1)
-  {
-    mesh = silhouette::selectTriangles(mesh, silhouette::rangeOfPiece(mesh.triangles.size(), piece));
-  }
 }
 
 void storeHulls(const std::vector<silhouette::LocalHull>& found, const silhouette::Piece& piece,
@@ -101,6 +110,76 @@ void storeHulls(const std::vector<silhouette::LocalHull>& found, const silhouett
   }
   storeMesh(all, output, hulls);
   hulls->GetCellData()->SetScalars(ids);
+}
+
+/** What the filter makes, of the whole; what is not asked for is not there. */
+struct Found
+{
+  std::optional<silhouette::LocalHullSurface> surface;
+  std::optional<std::vector<silhouette::LocalHull>> hulls;
+};
+
+/** The data of both outputs. */
+using Outputs = std::array<vtkSmartPointer<vtkPolyData>, 2>;
+
+void storePiece(const Found& found, const silhouette::Piece& piece, const MeshOutput& output,
+                const Outputs& outputs)
+{
+  if (found.surface)
+  {
+    storeSurface(*found.surface, piece, output, outputs[0]);
+  }
+  if (found.hulls)
+  {
+    storeHulls(*found.hulls, piece, output, outputs[1]);
+  }
+}
+
+/**
+ * A piece as the outputs of another rank. `input`'s field data pass through, as VTK passes them to a filter's
+ * outputs.
+ */
+Outputs shareOf(const Found& found, const silhouette::Piece& piece, const MeshOutput& output,
+                vtkPolyData* input)
+{
+  Outputs share;
+  for (auto& data : share)
+  {
+    data = vtkSmartPointer<vtkPolyData>::New();
+    data->GetFieldData()->PassData(input->GetFieldData());
+  }
+  storePiece(found, piece, output, share);
+  return share;
+}
+
+Outputs outputsOf(vtkInformationVector* outputs)
+{
+  return {vtkPolyData::GetData(outputs, 0), vtkPolyData::GetData(outputs, 1)};
+}
+
+/** Call `work(port)` for the output that is asked for; -1 is both. */
+template <typename Work> void forPorts(int port, const Work& work)
+{
+  for (const int each : {0, 1})
+  {
+    if (port < 0 || port == each)
+    {
+      work(each);
+    }
+  }
+}
+
+/** Outputs without triangles have the arrays all the same. */
+void storeEmpties(int port, const MeshOutput& output, const Outputs& outputs)
+{
+  if (port != 1 && outputs[0]->GetNumberOfCells() == 0)
+  {
+    storeMesh(silhouette::Mesh(), output, outputs[0]);
+  }
+  if (port != 0 && outputs[1]->GetNumberOfCells() == 0)
+  {
+    storeHulls({}, silhouette::Piece(), output, outputs[1]);
+  }
 }
 
 int requestedPort(vtkInformation* request)
@@ -172,15 +251,109 @@ public:
     self.Mode = static_cast<int>(options.mode);
     forSettings(self, options, [](auto& setting, const auto& option) { setting = option; });
   }
+
+  static MeshOutput meshOutput(const vtkLocalHullSurfacer& self)
+  {
+    MeshOutput output;
+    output.pointsPrecision = self.OutputPointsPrecision;
+    output.normals = self.GenerateNormals;
+    return output;
+  }
+
+  /** The whole of what is asked for; nothing of an empty octree. */
+  static Found make(const vtkLocalHullSurfacer& self, vtkInformationVector** inputs, int port,
+                    vtkSilhouetteExecution& execution)
+  {
+    Found found;
+    vtkHyperTreeGrid* grid = vtkHyperTreeGrid::GetData(inputs[1]);
+    if (isEmpty(grid))
+    {
+      return found;
+    }
+    const silhouette::LocalHullOptions settings = options(self);
+    silhouette::Phase reading(execution, 0.0, 0.1);
+    vtkPartitionedDataSetCollection* collection = vtkPartitionedDataSetCollection::GetData(inputs[2]);
+    const Inputs in(vtkPolyData::GetData(inputs[0]), grid, collection, reading);
+    if (port != 1)
+    {
+      silhouette::Phase surfacing(execution, 0.1, port < 0 ? 0.5 : 1.0);
+      found.surface =
+          silhouette::localHullSurface(in.surface, *in.octree, in.views.get(), settings, surfacing);
+    }
+    if (port != 0)
+    {
+      silhouette::Phase classifying(execution, port < 0 ? 0.5 : 0.1, 1.0);
+      found.hulls =
+          silhouette::classifyLocalHulls(in.surface, *in.octree, in.views.get(), settings, classifying);
+    }
+    return found;
+  }
+
+  /** The first rank's work: make the whole, tell how that ended, keep a share and send the others theirs. */
+  static Outcome makeForAll(vtkLocalHullSurfacer& self, vtkInformationVector** inputs, int port,
+                            const Outputs& outputs)
+  {
+    vtkMultiProcessController* controller = self.Controller;
+    std::vector<Outputs> shares;
+    const auto makeShares = [&](vtkSilhouetteExecution& execution)
+    {
+      const Found found = make(self, inputs, port, execution);
+      storePiece(found, pieceOfRank(controller, 0), meshOutput(self), outputs);
+      for (int rank = 1; rank < controller->GetNumberOfProcesses(); ++rank)
+      {
+        shares.push_back(
+            shareOf(found, pieceOfRank(controller, rank), meshOutput(self), vtkPolyData::GetData(inputs[0])));
+      }
+      execution.progress(1.0);
+    };
+    const Outcome made = attempt(&self, makeShares);
+    tellOutcome(controller, made);
+    if (made.end != Outcome::End::Done)
+    {
+      return made;
+    }
+    const auto send = [&](vtkSilhouetteExecution&)
+    {
+      for (std::size_t i = 0; i < shares.size(); ++i)
+      {
+        forPorts(port, [&](int asked) { sendShare(controller, shares[i][asked], int(i) + 1); });
+      }
+    };
+    return attempt(&self, send);
+  }
+
+  /** Any other rank's: hear how the first rank's work ended, and receive a share of it. */
+  static Outcome receive(vtkLocalHullSurfacer& self, int port, const Outputs& outputs)
+  {
+    const Outcome made = hearOutcome(self.Controller);
+    if (made.end != Outcome::End::Done)
+    {
+      return made;
+    }
+    const auto receiveShares = [&](vtkSilhouetteExecution& execution)
+    {
+      forPorts(port, [&](int asked) { receiveShare(self.Controller, outputs[asked]); });
+      storeEmpties(port, meshOutput(self), outputs);
+      execution.progress(1.0);
+    };
+    return attempt(&self, receiveShares);
+  }
 };
 
 vtkStandardNewMacro(vtkLocalHullSurfacer);
+vtkCxxSetObjectMacro(vtkLocalHullSurfacer, Controller, vtkMultiProcessController);
 
 vtkLocalHullSurfacer::vtkLocalHullSurfacer()
 {
   vtkInternals::setDefaults(*this);
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
+  this->SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkLocalHullSurfacer::~vtkLocalHullSurfacer()
+{
+  this->SetController(nullptr);
 }
 
 int vtkLocalHullSurfacer::FillInputPortInformation(int port, vtkInformation* info)
@@ -211,50 +384,58 @@ vtkTypeBool vtkLocalHullSurfacer::ProcessRequest(vtkInformation* request, vtkInf
   return this->Superclass::ProcessRequest(request, inputs, outputs);
 }
 
-int vtkLocalHullSurfacer::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs,
-                                              vtkInformationVector*)
+int vtkLocalHullSurfacer::ModifyRequest(vtkInformation* request, int when)
 {
-  requestWhole(inputs, 3);
+  const bool dataBefore =
+      when == vtkExecutive::BeforeForward && request->Has(vtkDemandDrivenPipeline::REQUEST_DATA());
+  if (dataBefore &&
+      oneForEachRank(this->Controller,
+                     requestedPiece(request, this->GetExecutive()->GetOutputInformation())) &&
+      !updateInputsTogether(this, request, this->Controller))
+  {
+    return 0;
+  }
+  return this->Superclass::ModifyRequest(request, when);
+}
+
+int vtkLocalHullSurfacer::RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
+                                              vtkInformationVector* outputs)
+{
+  const silhouette::Piece piece = requestedPiece(request, outputs);
+  if (isNothing(piece) || (oneForEachRank(this->Controller, piece) && piece.number > 0))
+  {
+    requestNothing(inputs, 3);
+  }
+  else
+  {
+    requestWhole(inputs, 3);
+  }
   return 1;
 }
 
 int vtkLocalHullSurfacer::RequestData(vtkInformation* request, vtkInformationVector** inputs,
                                       vtkInformationVector* outputs)
 {
-  vtkHyperTreeGrid* grid = vtkHyperTreeGrid::GetData(inputs[1]);
-  const int port = requestedPort(request);
   const silhouette::Piece piece = requestedPiece(request, outputs);
-
-  const auto makeWhole = [&](vtkSilhouetteExecution& execution)
+  if (isNothing(piece))
   {
-    if (isEmpty(grid))
+    return 1;
+  }
+  const int port = requestedPort(request);
+  if (!oneForEachRank(this->Controller, piece))
+  {
+    const auto makePiece = [&](vtkSilhouetteExecution& execution)
     {
-      return;
-    }
-    const silhouette::LocalHullOptions options = vtkInternals::options(*this);
-    silhouette::Phase reading(execution, 0.0, 0.1);
-    vtkPartitionedDataSetCollection* collection = vtkPartitionedDataSetCollection::GetData(inputs[2]);
-    const Inputs in(vtkPolyData::GetData(inputs[0]), grid, collection, reading);
-    MeshOutput output;
-    output.pointsPrecision = this->OutputPointsPrecision;
-    output.normals = this->GenerateNormals;
-    if (port != 1)
-    {
-      silhouette::Phase surfacing(execution, 0.1, port < 0 ? 0.5 : 1.0);
-      silhouette::LocalHullSurface found =
-          silhouette::localHullSurface(in.surface, *in.octree, in.views.get(), options, surfacing);
-      takePiece(found.mesh, piece);
-      storeSurface(found, output, vtkPolyData::GetData(outputs, 0));
-    }
-    if (port != 0)
-    {
-      silhouette::Phase classifying(execution, port < 0 ? 0.5 : 0.1, 1.0);
-      storeHulls(silhouette::classifyLocalHulls(in.surface, *in.octree, in.views.get(), options, classifying),
-                 piece, output, vtkPolyData::GetData(outputs, 1));
-    }
-    execution.progress(1.0);
-  };
-  return runFilter(this, outputs, makeWhole, port);
+      const Found found = vtkInternals::make(*this, inputs, port, execution);
+      storePiece(found, piece, vtkInternals::meshOutput(*this), outputsOf(outputs));
+      execution.progress(1.0);
+    };
+    return runFilter(this, outputs, makePiece, port);
+  }
+  const Outcome outcome = piece.number == 0
+                              ? vtkInternals::makeForAll(*this, inputs, port, outputsOf(outputs))
+                              : vtkInternals::receive(*this, port, outputsOf(outputs));
+  return settle(this, outputs, outcome, port);
 }
 
 void vtkLocalHullSurfacer::PrintSelf(ostream& os, vtkIndent indent)
@@ -299,4 +480,5 @@ void vtkLocalHullSurfacer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ChainOverlap: " << this->ChainOverlap << "\n";
   os << indent << "GenerateNormals: " << (this->GenerateNormals ? "On" : "Off") << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
 }

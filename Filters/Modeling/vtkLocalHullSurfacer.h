@@ -47,7 +47,12 @@
  *
  * Pieces: covering, joints and corrections are decided over the whole, so a piece asks for the whole of its
  * inputs, and gives an even share of the surface's triangles, in order, and of the hulls; the counts are the
- * whole's. The shares add up to the whole. Memory and time are those of the whole on every rank.
+ * whole's. The shares add up to the whole. Memory and time are those of the whole for every piece. Where each
+ * rank of the Controller asks for its own of as many pieces as there are ranks, this is done once: the first
+ * rank alone asks for its inputs, makes the whole, which takes it the whole's time and memory, and sends the
+ * others their shares; they ask their inputs for nothing, wait, and hold their share alone. All ranks must
+ * then update together, as with every filter that has a controller. Where the first rank fails or is stopped,
+ * all are: with its message, or, where its inputs failed, with one that names it, and empty outputs.
  *
  * Limits: an empty octree gives an empty surface without a message. Errors: octree and views that do not
  * belong together; a surface with cells other than triangles; a parameter out of range; single precision too
@@ -66,6 +71,8 @@
 
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSilhouetteFiltersModelingModule.h" // for the export macro
+
+class vtkMultiProcessController;
 
 class VTKSILHOUETTEFILTERSMODELING_EXPORT vtkLocalHullSurfacer : public vtkPolyDataAlgorithm
 {
@@ -447,6 +454,15 @@ public:
   ///@}
 
   ///@{
+  /**
+   * The processes among which the surface is shared out, see "Pieces" above; default: the global controller.
+   * Null, or one of a single process: each process makes by itself what it is asked for.
+   */
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+  ///@{
   /** The second port's input: the octree. */
   void SetOctreeConnection(vtkAlgorithmOutput* octree) { this->SetInputConnection(1, octree); }
   void SetOctreeData(vtkDataObject* octree) { this->SetInputData(1, octree); }
@@ -460,10 +476,11 @@ public:
 
   vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
                              vtkInformationVector* outputs) override;
+  int ModifyRequest(vtkInformation* request, int when) override;
 
 protected:
   vtkLocalHullSurfacer();
-  ~vtkLocalHullSurfacer() override = default;
+  ~vtkLocalHullSurfacer() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
@@ -508,6 +525,7 @@ protected:
   double SliceTolerance;
   double ChainTolerance;
   double ChainOverlap;
+  vtkMultiProcessController* Controller = nullptr;
   bool GenerateNormals = false;
   int OutputPointsPrecision = DOUBLE_PRECISION;
 

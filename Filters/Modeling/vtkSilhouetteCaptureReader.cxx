@@ -3,9 +3,11 @@
 
 #include "CaptureFolder.h"
 #include "CaptureImages.h"
+#include "PieceRequests.h"
 #include "ViewConversion.h"
 #include "vtkSilhouetteExecution.h"
 
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -61,9 +63,25 @@ int vtkSilhouetteCaptureReader::RequestInformation(vtkInformation*, vtkInformati
   return 1;
 }
 
-int vtkSilhouetteCaptureReader::RequestData(vtkInformation*, vtkInformationVector**,
+vtkTypeBool vtkSilhouetteCaptureReader::ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+                                                       vtkInformationVector* outputs)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_NOT_GENERATED()))
+  {
+    leaveOthersFromNothing(request, outputs);
+    return 1;
+  }
+  return this->Superclass::ProcessRequest(request, inputs, outputs);
+}
+
+int vtkSilhouetteCaptureReader::RequestData(vtkInformation* request, vtkInformationVector**,
                                             vtkInformationVector* outputs)
 {
+  if (isNothing(requestedPiece(request, outputs)))
+  {
+    return 1;
+  }
+
   const auto read = [&](vtkSilhouetteExecution& execution)
   {
     if (!this->FileName || !*this->FileName)

@@ -105,6 +105,9 @@ public:
   /** The second output: the cameras. */
   vtkPolyData* GetCamerasOutput();
 
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+                             vtkInformationVector* outputs) override;
+
 protected:
   vtkSilhouetteCaptureReader();
   ~vtkSilhouetteCaptureReader() override;

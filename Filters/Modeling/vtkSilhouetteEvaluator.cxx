@@ -72,10 +72,17 @@ int vtkSilhouetteEvaluator::FillInputPortInformation(int port, vtkInformation* i
   return 1;
 }
 
-int vtkSilhouetteEvaluator::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs,
-                                                vtkInformationVector*)
+int vtkSilhouetteEvaluator::RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
+                                                vtkInformationVector* outputs)
 {
-  requestWhole(inputs, 4);
+  if (requestedPiece(request, outputs).number > 0)
+  {
+    requestNothing(inputs, 4);
+  }
+  else
+  {
+    requestWhole(inputs, 4);
+  }
   return 1;
 }
 

@@ -35,7 +35,8 @@
  * Cost: self-intersections and distances take most, some seconds a million triangles. Memory: about 200 bytes
  * a triangle.
  *
- * Pieces: the first piece judges the whole of its inputs; the table of any other is empty.
+ * Pieces: the first piece judges the whole of its inputs; the table of any other is empty, and asks them for
+ * nothing.
  *
  * Limits: points are one by index alone: merge those of formats without shared points first
  * (vtkCleanPolyData). Errors (message, empty output): a surface or a truth without triangles, or with other

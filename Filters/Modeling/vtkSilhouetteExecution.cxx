@@ -72,42 +72,49 @@ void emptyOutputs(vtkInformationVector* outputs, int port)
   }
 }
 
-int fail(vtkAlgorithm* filter, vtkInformationVector* outputs, int port, const std::string& message)
-{
-  emptyOutputs(outputs, port);
-  vtkErrorWithObjectMacro(filter, << message);
-  return 0;
-}
-
 } // namespace
 
-int runFilter(vtkAlgorithm* filter, vtkInformationVector* outputs,
-              const std::function<void(vtkSilhouetteExecution&)>& work, int port)
+Outcome attempt(vtkAlgorithm* filter, const std::function<void(vtkSilhouetteExecution&)>& work)
 {
   try
   {
     vtkSilhouetteExecution execution(filter);
     work(execution);
     // Asked to stop too late for the core to notice: the promise of an empty output holds all the same.
-    if (execution.cancelled())
-    {
-      throw Cancelled();
-    }
-    return 1;
+    return {execution.cancelled() ? Outcome::End::Cancelled : Outcome::End::Done, {}};
   }
   catch (const Cancelled&)
   {
-    emptyOutputs(outputs, port);
-    return 1;
+    return {Outcome::End::Cancelled, {}};
   }
   catch (const std::bad_alloc&)
   {
-    return fail(filter, outputs, port, "not enough memory; a smaller depth needs less");
+    return {Outcome::End::Failed, "not enough memory; a smaller depth needs less"};
   }
   catch (const std::exception& error)
   {
-    return fail(filter, outputs, port, error.what());
+    return {Outcome::End::Failed, error.what()};
   }
+}
+
+int settle(vtkAlgorithm* filter, vtkInformationVector* outputs, const Outcome& outcome, int port)
+{
+  if (outcome.end != Outcome::End::Done)
+  {
+    emptyOutputs(outputs, port);
+  }
+  if (outcome.end == Outcome::End::Failed)
+  {
+    vtkErrorWithObjectMacro(filter, << outcome.message);
+    return 0;
+  }
+  return 1;
+}
+
+int runFilter(vtkAlgorithm* filter, vtkInformationVector* outputs,
+              const std::function<void(vtkSilhouetteExecution&)>& work, int port)
+{
+  return settle(filter, outputs, attempt(filter, work), port);
 }
 
 } // namespace silhouette::modeling

@@ -34,11 +34,30 @@ private:
 namespace silhouette::modeling
 {
 
+/** How a filter's work ended. */
+struct Outcome
+{
+  enum class End
+  {
+    Done,
+    Cancelled,
+    Failed
+  };
+  End end = End::Done;
+  std::string message; ///< of a failure
+};
+
+/** Run a filter's work; throws nothing. */
+Outcome attempt(vtkAlgorithm* filter, const std::function<void(vtkSilhouetteExecution&)>& work);
+
 /**
- * Run a filter's work and settle how it ended: 1 where it was done, or was cancelled (outputs empty, no error
- * text); 0 after an error, with its text as the filter's error and the outputs empty. `port` restricts what
- * is emptied to one output port; -1 is all of them.
+ * What RequestData returns, and does, for an outcome: 1 where the work was done, or was cancelled (outputs
+ * empty, no error text); 0 after an error, with its text as the filter's error and the outputs empty. `port`
+ * restricts what is emptied to one output port; -1 is all of them.
  */
+int settle(vtkAlgorithm* filter, vtkInformationVector* outputs, const Outcome& outcome, int port = -1);
+
+/** Both: run a filter's work and settle how it ended. */
 int runFilter(vtkAlgorithm* filter, vtkInformationVector* outputs,
               const std::function<void(vtkSilhouetteExecution&)>& work, int port = -1);
 

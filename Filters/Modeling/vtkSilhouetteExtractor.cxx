@@ -2,6 +2,7 @@
 #include "vtkSilhouetteExtractor.h"
 
 #include "CaptureImages.h"
+#include "PieceRequests.h"
 #include "SilhouetteExtraction.h"
 #include "ViewConversion.h"
 #include "vtkSilhouetteExecution.h"
@@ -126,7 +127,17 @@ int vtkSilhouetteExtractor::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
-int vtkSilhouetteExtractor::RequestData(vtkInformation*, vtkInformationVector** inputs,
+int vtkSilhouetteExtractor::RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
+                                                vtkInformationVector* outputs)
+{
+  if (isNothing(requestedPiece(request, outputs)))
+  {
+    requestNothingNew(inputs, 1);
+  }
+  return 1;
+}
+
+int vtkSilhouetteExtractor::RequestData(vtkInformation* request, vtkInformationVector** inputs,
                                         vtkInformationVector* outputs)
 {
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputs[0]);
@@ -134,6 +145,10 @@ int vtkSilhouetteExtractor::RequestData(vtkInformation*, vtkInformationVector** 
 
   const auto extract = [&](vtkSilhouetteExecution& execution)
   {
+    if (isNothing(requestedPiece(request, outputs)))
+    {
+      return;
+    }
     silhouette::ExtractionOptions options;
     if (this->KeyChannel != NONE)
     {

@@ -117,6 +117,15 @@ void storeTolerance(const CarvedViews& carved, vtkHyperTreeGrid* grid)
   }
 }
 
+void storeGrid(CarvedViews& carved, const silhouette::Piece& piece, vtkHyperTreeGrid* grid)
+{
+  storeOctree(carved.octree, grid);
+  setField(grid, "Piece", piece.number);
+  setField(grid, "NumberOfPieces", piece.count);
+  storeTolerance(carved, grid);
+  attachOctree(grid, std::make_shared<const silhouette::Octree>(std::move(carved.octree)));
+}
+
 } // namespace
 
 vtkStandardNewMacro(vtkSilhouetteOctreeSource);
@@ -243,7 +252,19 @@ vtkTypeBool vtkSilhouetteOctreeSource::ProcessRequest(vtkInformation* request, v
   }
   if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
   {
-    requestWhole(inputs, 1); // every piece needs every view
+    if (isNothing(requestedPiece(request, outputs)))
+    {
+      requestNothingNew(inputs, 1);
+    }
+    else
+    {
+      requestWhole(inputs, 1); // every piece needs every view
+    }
+    return 1;
+  }
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_NOT_GENERATED()))
+  {
+    leaveOtherPieces(request, outputs);
     return 1;
   }
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
@@ -260,9 +281,23 @@ int vtkSilhouetteOctreeSource::RequestData(vtkInformation* request, vtkInformati
   vtkHyperTreeGrid* grid = vtkHyperTreeGrid::GetData(outputs, 0);
   vtkPartitionedDataSetCollection* viewsOut = vtkPartitionedDataSetCollection::GetData(outputs, 1);
 
+  const silhouette::Piece piece = requestedPiece(request, outputs);
+  const bool gridAsked = isGenerated(outputs, 0), viewsAsked = isGenerated(outputs, 1);
+
   const auto grow = [&](vtkSilhouetteExecution& execution)
   {
-    forgetOctree(grid); // before the next one is made
+    if (gridAsked)
+    {
+      forgetOctree(grid); // before the next one is made
+    }
+    if (isNothing(piece))
+    {
+      if (viewsAsked)
+      {
+        forgetPreparedViews(viewsOut);
+      }
+      return;
+    }
     silhouette::Phase preparing(execution, 0.0, 0.1);
     silhouette::ViewOptions viewOptions;
     viewOptions.outside = static_cast<silhouette::OutsidePolicy>(this->OutsidePolicy);
@@ -275,7 +310,7 @@ int vtkSilhouetteOctreeSource::RequestData(vtkInformation* request, vtkInformati
     settings.automaticBounds = this->AutomaticBounds;
     std::copy_n(this->Bounds, 6, settings.bounds.begin());
     settings.backgroundVotes = this->BackgroundVotes;
-    settings.piece = requestedPiece(request, outputs);
+    settings.piece = piece;
     const auto warn = [this](const std::string& text)
     { vtkWarningMacro(<< text); };
     CarvedViews carved = carveViews(views, settings, this->AutomaticTolerance, warn, carving);
@@ -286,15 +321,17 @@ int vtkSilhouetteOctreeSource::RequestData(vtkInformation* request, vtkInformati
       warn(cut);
     }
 
-    storeOctree(carved.octree, grid);
-    setField(grid, "Piece", settings.piece.number);
-    setField(grid, "NumberOfPieces", settings.piece.count);
-    storeTolerance(carved, grid);
-    storeUsed(carved, this->Internals->views(input), viewsOut);
-    attachOctree(grid, std::make_shared<const silhouette::Octree>(std::move(carved.octree)));
+    if (viewsAsked)
+    {
+      storeUsed(carved, this->Internals->views(input), viewsOut);
+    }
+    if (gridAsked)
+    {
+      storeGrid(carved, piece, grid);
+    }
     execution.progress(1.0);
   };
-  return runFilter(this, outputs, grow);
+  return runFilter(this, outputs, grow, gridAsked && viewsAsked ? -1 : int(viewsAsked));
 }
 
 void vtkSilhouetteOctreeSource::PrintSelf(ostream& os, vtkIndent indent)

@@ -49,7 +49,8 @@
  * Pieces: asked for piece p of n (vtkAlgorithm::UpdatePiece(), or ParaView's engine on each rank), the source
  * carves the trees of that piece alone, from all views. Every piece finds its trees by a coarse carve of its
  * own, without asking the others. With AutomaticTolerance each piece carves the whole first. That nothing
- * survives is an error where the coarse carve shows it; a piece without survivors is none.
+ * survives is an error where the coarse carve shows it; a piece without survivors is none. The second of
+ * 2^31 - 1 pieces, which filters ask for that need nothing, is empty without any view being read.
  *
  * Limits: XML files keep the cell arrays but not the field data, and need
  * SetDataModeToBinary(); an octree read from one cannot go through the surface filters.

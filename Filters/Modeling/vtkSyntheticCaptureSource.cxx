@@ -3,11 +3,13 @@
 
 #include "FieldValues.h"
 #include "MeshConversion.h"
+#include "PieceRequests.h"
 #include "SyntheticCapture.h"
 #include "SyntheticShapes.h"
 #include "ViewConversion.h"
 #include "vtkSilhouetteExecution.h"
 
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -99,10 +101,26 @@ int vtkSyntheticCaptureSource::RequestInformation(vtkInformation*, vtkInformatio
   return 1;
 }
 
-int vtkSyntheticCaptureSource::RequestData(vtkInformation*, vtkInformationVector** inputs,
+vtkTypeBool vtkSyntheticCaptureSource::ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+                                                      vtkInformationVector* outputs)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_NOT_GENERATED()))
+  {
+    leaveOthersFromNothing(request, outputs);
+    return 1;
+  }
+  return this->Superclass::ProcessRequest(request, inputs, outputs);
+}
+
+int vtkSyntheticCaptureSource::RequestData(vtkInformation* request, vtkInformationVector** inputs,
                                            vtkInformationVector* outputs)
 {
   vtkPolyData* given = vtkPolyData::GetData(inputs[0]);
+
+  if (isNothing(requestedPiece(request, outputs)))
+  {
+    return 1;
+  }
 
   const auto synthesize = [&](vtkSilhouetteExecution& execution)
   {

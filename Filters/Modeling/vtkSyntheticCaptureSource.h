@@ -140,6 +140,9 @@ public:
   /** A mesh to photograph, without a pipeline. */
   void SetInputData(vtkPolyData* mesh);
 
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+                             vtkInformationVector* outputs) override;
+
 protected:
   vtkSyntheticCaptureSource();
   ~vtkSyntheticCaptureSource() override = default;

@@ -6,6 +6,7 @@
 #include "MeshConversion.h"
 #include "OctreeConversion.h"
 #include "OctreeSharing.h"
+#include "PieceRequests.h"
 #include "PreparedViewsSharing.h"
 #include "VotingMarchingCubes.h"
 #include "vtkSilhouetteExecution.h"
@@ -36,7 +37,7 @@ int vtkVotingMarchingCubes::FillInputPortInformation(int port, vtkInformation* i
   return 1;
 }
 
-int vtkVotingMarchingCubes::RequestData(vtkInformation*, vtkInformationVector** inputs,
+int vtkVotingMarchingCubes::RequestData(vtkInformation* request, vtkInformationVector** inputs,
                                         vtkInformationVector* outputs)
 {
   vtkHyperTreeGrid* grid = vtkHyperTreeGrid::GetData(inputs[0]);
@@ -45,7 +46,7 @@ int vtkVotingMarchingCubes::RequestData(vtkInformation*, vtkInformationVector** 
 
   const auto contour = [&](vtkSilhouetteExecution& execution)
   {
-    if (isEmpty(grid))
+    if (isEmpty(grid) || isNothing(requestedPiece(request, outputs)))
     {
       return;
     }

@@ -124,7 +124,7 @@ TEST(VtkLocalHullSurfacer, IsAProperFilter)
                 "ThinHulls", "JoinHandles", "HandleReach", "FillTunnels", "TunnelWidth", "LoopLength", "SpeckleArea", "SpeckleShare", "BlobDepth", "BlobChord", "BlobCorners",
                 "SmallestDeficit", "SmallestShift", "HullConvexity", "ModelDissent", "Smoothing", "GreatestSmoothing", "Gentleness", "Alignments", "ContourReach",
                 "ThinSmallestRadius", "ThinLargestRadius", "ThinReach", "SliceAxis", "SliceTolerance",
-                "ChainTolerance", "ChainOverlap"});
+                "ChainTolerance", "ChainOverlap", "Controller"});
   expectModifies(filter, [&] { filter->SetModeToThesis(); });
   expectModifies(filter, [&] { filter->SetModeToRobust(); });
   expectModifies(filter, [&] { filter->SetIslandShare(0.5); });

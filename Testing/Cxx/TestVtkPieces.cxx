@@ -5,6 +5,7 @@
  */
 #include "ModelingTesting.h"
 #include "vtkLocalHullSurfacer.h"
+#include "vtkSilhouetteCaptureReader.h"
 #include "vtkSilhouetteEvaluator.h"
 #include "vtkSilhouetteExtractor.h"
 #include "vtkSilhouetteOctreeSource.h"
@@ -12,14 +13,16 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkDummyController.h"
 #include "vtkHyperTreeGrid.h"
 #include "vtkIdList.h"
-#include "vtkIntArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIntArray.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
+#include <limits>
 #include <map>
 #include <set>
 
@@ -95,6 +98,21 @@ int countRuns(vtkAlgorithm* filter, vtkCallbackCommand* command, int& count)
   command->SetCallback([](vtkObject*, unsigned long, void* runs, void*) { ++*static_cast<int*>(runs); });
   return int(filter->AddObserver(vtkCommand::StartEvent, command));
 }
+
+/** UpdatePiece() of any output. */
+void updatePiece(vtkAlgorithm* filter, int port, int piece, int count)
+{
+  vtkNew<vtkInformationVector> requests;
+  requests->SetNumberOfInformationObjects(filter->GetNumberOfOutputPorts());
+  vtkInformation* request = requests->GetInformationObject(port);
+  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
+  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), count);
+  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  filter->Update(port, requests);
+}
+
+/** The piece that is nothing of anything (PieceRequests.h). */
+constexpr int NothingOf = std::numeric_limits<int>::max();
 
 } // namespace
 
@@ -204,13 +222,7 @@ TEST(VtkPieces, OfTheLocalHullSurfaceAddUp)
     EXPECT_EQ(found, expected) << count << " pieces";
     for (int piece = 0; piece < count; ++piece)
     {
-      vtkNew<vtkInformationVector> requests;
-      requests->SetNumberOfInformationObjects(2);
-      vtkInformation* request = requests->GetInformationObject(1);
-      request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
-      request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), count);
-      request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-      parts.hulls->Update(1, requests);
+      updatePiece(parts.hulls, 1, piece, count);
       auto* hulls = vtkPolyData::SafeDownCast(parts.hulls->GetOutputDataObject(1));
       const auto some = triangles(hulls);
       foundHulls.insert(foundHulls.end(), some.begin(), some.end());
@@ -232,6 +244,98 @@ TEST(VtkPieces, OfTheEvaluationTheFirstHasAll)
   }
   parts.evaluator->UpdatePiece(1, 2, 0);
   EXPECT_EQ(parts.evaluator->GetOutput()->GetNumberOfRows(), 0);
+  EXPECT_EQ(elements(parts.hulls->GetOutput()), 0) << "the others ask for nothing";
+}
+
+TEST(VtkPieces, OfOneOutputLeaveAnotherPieceOfTheOtherAlone)
+{
+  Pipeline parts;
+  parts.cubes->UpdatePiece(1, 2, 0);
+  const double octants = field(parts.octree->GetOutput(), "IntersectionOctants");
+  for (const int count : {1, 3, NothingOf})
+  {
+    updatePiece(parts.octree, 1, count == 1 ? 0 : 1, count);
+    EXPECT_EQ(elements(parts.octree->GetOutputDataObject(1)), count == NothingOf ? 0 : 8);
+    parts.octree->UpdatePiece(1, 2, 0);
+    EXPECT_EQ(field(parts.octree->GetOutput(), "NumberOfPieces"), 2) << count;
+    EXPECT_EQ(field(parts.octree->GetOutput(), "IntersectionOctants"), octants) << count;
+  }
+}
+
+TEST(VtkPieces, OfNothingReadAndMakeNothing)
+{
+  Pipeline parts;
+  int runs = 0;
+  vtkNew<vtkCallbackCommand> command;
+  countRuns(parts.octree, command, runs);
+  const Listener extractor(parts.extractor), octree(parts.octree), cubes(parts.cubes), hulls(parts.hulls);
+  for (const int port : {0, 1})
+  {
+    updatePiece(parts.hulls, port, 1, NothingOf);
+    EXPECT_EQ(elements(parts.hulls->GetOutputDataObject(port)), 0);
+  }
+  EXPECT_EQ(elements(parts.cubes->GetOutput()), 0);
+  EXPECT_EQ(elements(parts.octree->GetOutputDataObject(0)), 0);
+  EXPECT_EQ(elements(parts.octree->GetOutputDataObject(1)), 0);
+  EXPECT_EQ(elements(parts.extractor->GetOutputDataObject(0)), 0);
+  EXPECT_EQ(runs, 1);
+  EXPECT_TRUE(extractor.silent() && octree.silent() && cubes.silent() && hulls.silent());
+
+  // Afterwards everything is there for those who ask for something.
+  Pipeline whole;
+  whole.hulls->Update();
+  parts.hulls->UpdatePiece(0, 1, 0);
+  EXPECT_EQ(triangles(parts.hulls->GetOutput()), triangles(whole.hulls->GetOutput()));
+}
+
+TEST(VtkPieces, OfNothingKeepTheViewsThatAreThere)
+{
+  Pipeline parts;
+  int runs = 0;
+  vtkNew<vtkCallbackCommand> command;
+  countRuns(parts.extractor, command, runs);
+  parts.cubes->UpdatePiece(1, 2, 0);
+  const auto before = triangles(parts.cubes->GetOutput());
+  parts.hulls->UpdatePiece(1, NothingOf, 0);
+  parts.cubes->UpdatePiece(1, 2, 0);
+  EXPECT_EQ(triangles(parts.cubes->GetOutput()), before);
+  EXPECT_EQ(runs, 1) << "the silhouettes are found once";
+}
+
+TEST(VtkPieces, OfNothingOpenNoFile)
+{
+  vtkNew<vtkSilhouetteCaptureReader> reader;
+  reader->SetFileName("no such capture");
+  const Listener listener(reader);
+  reader->UpdatePiece(1, NothingOf, 0);
+  EXPECT_TRUE(listener.silent());
+  reader->UpdatePiece(1, 2, 0);
+  EXPECT_EQ(listener.Errors.size(), 1u);
+}
+
+TEST(VtkPieces, WithoutOtherProcessesAreMadeAlone)
+{
+  Pipeline whole, alone, single;
+  EXPECT_EQ(whole.hulls->GetController(), vtkMultiProcessController::GetGlobalController());
+  alone.hulls->SetController(nullptr);
+  vtkNew<vtkDummyController> controller;
+  expectModifies(single.hulls, [&] { single.hulls->SetController(controller); });
+  EXPECT_EQ(single.hulls->GetController(), controller);
+  whole.hulls->Update();
+  const auto expected = triangles(whole.hulls->GetOutput());
+  for (Pipeline* one : {&alone, &single})
+  {
+    std::vector<Corners> found;
+    for (int piece = 0; piece < 2; ++piece)
+    {
+      one->hulls->UpdatePiece(piece, 2, 0);
+      const auto some = triangles(one->hulls->GetOutput());
+      found.insert(found.end(), some.begin(), some.end());
+    }
+    EXPECT_EQ(found, expected);
+    one->hulls->UpdatePiece(0, 1, 0);
+    EXPECT_EQ(triangles(one->hulls->GetOutput()), expected);
+  }
 }
 
 TEST(VtkPieces, WithAutomaticToleranceAddUpToo)

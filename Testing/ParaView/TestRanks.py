@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
 pvbatch with one, two and four ranks: each carves its piece of the octree, and the surfaces, gathered, are the serial
-ones, triangle for triangle.
+ones, triangle for triangle. The local hulls are made once, by the first; where it fails all do, and nobody waits for ever.
 """
 import json
 import os
@@ -64,6 +64,28 @@ class TestRanks(unittest.TestCase):
         self.assertEqual([rank["rows"] for rank in found], [self.serial[0]["rows"]] + [0] * (ranks - 1))
         self.assertEqual(found[0]["sound"], 1)
         self.assertEqual(found[0]["triangles"], self.serial[0]["triangles"])
+
+        self.check_that_the_first_rank_makes_the_hulls(found)
+        self.check_that_all_fail_alike(found)
+
+    def check_that_the_first_rank_makes_the_hulls(self, found):
+        serial = self.serial[0]
+        self.assertEqual([rank["alone"]["hulls"] for rank in found], [rank["hulls"] for rank in found])
+        # In order: the shares follow each other.
+        self.assertEqual([triangle for rank in found for triangle in rank["alone"]["hulls"]], serial["hulls"])
+        for what in ("cubes", "octants", "views"):
+            self.assertEqual([rank["alone"][what] for rank in found],
+                             [serial["alone"][what]] + [0] * (len(found) - 1), what)
+
+    def check_that_all_fail_alike(self, found):
+        for rank, one in enumerate(found):
+            self.assertEqual(one["failures"]["mended"], len(one["hulls"]))
+            for name, first, others in (("surfacer", "cover offset 5.0", "cover offset 5.0"),
+                                        ("octree", "depth 99", "rank 0 could not make")):
+                failure = one["failures"][name]
+                # ParaView may update more than once.
+                self.assertEqual((failure["triangles"], len(set(failure["messages"]))), (0, 1), failure)
+                self.assertIn(first if rank == 0 else others, failure["messages"][0])
 
     def test_two_ranks(self):
         self.check(2)

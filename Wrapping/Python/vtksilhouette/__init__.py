@@ -13,8 +13,9 @@ vtksilhouette.numpy_front   numpy masks in, numpy mesh out, without VTK in sight
 vtksilhouette.offscreen     rendering without a display: python3 -m vtksilhouette.offscreen SCRIPT
 """
 
-# VTK's classes that ours derive from must be known to Python first.
+# VTK's classes that ours derive from, or take and give, must be known to Python first.
 import vtkmodules.vtkCommonExecutionModel  # noqa: F401
+import vtkmodules.vtkParallelCore  # noqa: F401
 
 from .vtkSilhouetteFiltersModeling import *  # noqa: F401,F403
 
