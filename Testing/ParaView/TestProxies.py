@@ -25,6 +25,7 @@ NUMBERS = ("IntVectorProperty", "DoubleVectorProperty", "IdTypeVectorProperty")
 NOT_IN_PROXIES = {
     ("vtkSilhouetteOctreeSource", "Bounds"): "BoundsOrigin and BoundsSize, which a box widget can hold, are the same",
     ("vtkSilhouetteOctreeSource", "View"): "images one by one are for programs; in a pipeline the input has them",
+    ("vtkLocalHullSurfacer", "Controller"): "ParaView's own, the global one, is the default",
 }
 # Numbers that have no range, since the classes take any.
 ANY_NUMBER = {"Seed", "BoundsOrigin"}
