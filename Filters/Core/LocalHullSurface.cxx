@@ -5,11 +5,11 @@
 #include "CrossingPlacer.h"
 #include "LatticeRegions.h"
 #include "LatticeSurface.h"
+#include "MeshComponents.h"
 #include "RobustLabels.h"
 #include "SurvivorCovering.h"
 #include "ThesisHullSurface.h"
 #include "ThinHullFitting.h"
-#include "UnionFind.h"
 
 #include <algorithm>
 #include <optional>
@@ -223,22 +223,6 @@ void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const 
   }
 }
 
-std::uint64_t countComponents(const Mesh& mesh)
-{
-  UnionFind sets(mesh.points.size());
-  for (const Triangle& t : mesh.triangles)
-  {
-    sets.unite(std::uint32_t(t[0]), std::uint32_t(t[1]));
-    sets.unite(std::uint32_t(t[0]), std::uint32_t(t[2]));
-  }
-  std::uint64_t count = 0;
-  for (std::uint32_t p = 0; p < mesh.points.size(); ++p)
-  {
-    count += sets.find(p) == p;
-  }
-  return count;
-}
-
 /**
  * Labels with every survivor covered, and the surface of them. False where a correction was so large that the surface has more components
  * than the survivors.
@@ -277,7 +261,7 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
   Phase contouring(execution, 0.4, 1.0);
   makeSurface(labels, survivors, covering, place, added, latticeViews ? &*latticeViews : nullptr, options, surface, contouring);
   return !labels.field() || !options.fillCavities ||
-    countComponents(surface.mesh) <= countSurvivorComponents(survivors.octree, execution);
+    countComponents(surface.mesh, execution) <= countSurvivorComponents(survivors.octree, execution);
 }
 
 /** Nothing corrected, and nothing given up. */

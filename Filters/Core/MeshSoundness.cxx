@@ -2,6 +2,7 @@
 #include "MeshSoundness.h"
 
 #include "MeshCheck.h"
+#include "MeshComponents.h"
 #include "SelfIntersections.h"
 #include "UnionFind.h"
 
@@ -156,22 +157,6 @@ std::uint64_t assessEdges(const Mesh& mesh, MeshSoundness& result)
   return edges;
 }
 
-std::uint64_t componentsOf(const Mesh& mesh, std::uint64_t unusedPoints)
-{
-  UnionFind sets(mesh.points.size());
-  for (const Triangle& t : mesh.triangles)
-  {
-    sets.unite(t[0], t[1]);
-    sets.unite(t[0], t[2]);
-  }
-  std::uint64_t count = 0;
-  for (std::size_t p = 0; p < mesh.points.size(); ++p)
-  {
-    count += sets.find(std::uint32_t(p)) == p;
-  }
-  return count - unusedPoints; // each of these is a set of its own
-}
-
 void measure(const Mesh& mesh, MeshSoundness& result)
 {
   Eigen::AlignedBox3d bounds;
@@ -206,7 +191,7 @@ MeshSoundness assessMesh(const Mesh& mesh, Execution& execution)
   assessPoints(mesh, execution, result);
   execution.checkpoint(0.15);
   const std::uint64_t edges = assessEdges(mesh, result);
-  result.components = componentsOf(mesh, result.unusedPoints);
+  result.components = countComponents(mesh, execution) - result.unusedPoints; // each of these is a set of its own
   measure(mesh, result);
   const bool hasGenus = result.closed() && result.nonManifoldEdges == 0 && result.nonManifoldVertices == 0 &&
     result.inconsistentEdges == 0;

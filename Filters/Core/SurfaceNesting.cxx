@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceNesting.h"
 
+#include "MeshComponents.h"
 #include "RowIntervals.h"
-#include "UnionFind.h"
 
 #include <algorithm>
 #include <tuple>
@@ -14,12 +14,8 @@ namespace
 
 std::vector<std::uint32_t> numberComponents(const LatticeSurface& surface, std::size_t& count)
 {
-  UnionFind sets(surface.edges.size());
-  for (const auto& t : surface.triangles)
-  {
-    sets.unite(std::uint32_t(t[0]), std::uint32_t(t[1]));
-    sets.unite(std::uint32_t(t[0]), std::uint32_t(t[2]));
-  }
+  Execution alone;
+  ConcurrentUnionFind sets = connectPoints(surface.triangles, surface.edges.size(), alone);
   std::vector<std::uint32_t> component(surface.edges.size());
   count = 0;
   for (std::uint32_t e = 0; e < component.size(); ++e)

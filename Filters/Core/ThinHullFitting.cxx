@@ -2,9 +2,9 @@
 #include "ThinHullFitting.h"
 
 #include "BoxTree.h"
-#include "ConcurrentUnionFind.h"
 #include "CoverageNear.h"
 #include "IndicesWhere.h"
+#include "MeshComponents.h"
 #include "SelfIntersections.h"
 
 #include <algorithm>
@@ -374,27 +374,12 @@ private:
     return all;
   }
 
-  void findComponents()
-  {
-    this->Components = ConcurrentUnionFind(this->TheMesh.points.size(), this->Run);
-    const auto& triangles = this->TheMesh.triangles;
-    this->Run.forRanges(triangles.size(), 4096,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t t = first; t < last; ++t)
-        {
-          this->Components.unite(std::uint32_t(triangles[t][0]), std::uint32_t(triangles[t][1]));
-          this->Components.unite(std::uint32_t(triangles[t][0]), std::uint32_t(triangles[t][2]));
-        }
-      });
-  }
-
   /** Withdraw components that the moves have turned inside out; false where there are none. */
   bool withdrawInverted()
   {
     if (this->Components.size() == 0)
     {
-      this->findComponents();
+      this->Components = connectPoints(this->TheMesh.triangles, this->TheMesh.points.size(), this->Run);
     }
     const Volumes volumes = this->volumes();
     bool any = false;

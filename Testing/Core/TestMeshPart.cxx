@@ -3,6 +3,7 @@
 
 #include "CodeCursor.h"
 #include "IndicesWhere.h"
+#include "MeshComponents.h"
 
 #include <gtest/gtest.h>
 
@@ -29,6 +30,22 @@ TEST(MeshPart, HasItsTrianglesWhereverTheirPointsAre)
     }
   }
   EXPECT_TRUE(MeshPart().of(square).points.empty());
+}
+
+TEST(MeshComponents, AreConnectedThroughTriangles)
+{
+  Execution execution;
+  Mesh mesh;
+  mesh.points.resize(8);
+  mesh.triangles = { { 6, 1, 2 }, { 2, 3, 6 }, { 4, 0, 5 } };
+  ConcurrentUnionFind sets = connectPoints(mesh.triangles, mesh.points.size(), execution);
+  const std::vector<std::uint32_t> expected = { 0, 1, 1, 1, 0, 0, 1, 7 };
+  for (std::uint32_t p = 0; p < 8; ++p)
+  {
+    EXPECT_EQ(sets.find(p), expected[p]);
+  }
+  EXPECT_EQ(countComponents(mesh, execution), 3u) << "the last point is alone";
+  EXPECT_EQ(countComponents(Mesh(), execution), 0u);
 }
 
 TEST(IndicesWhere, AreAscending)
