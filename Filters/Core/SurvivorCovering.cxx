@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurvivorCovering.h"
 
-#include "CodeCursor.h"
-#include "LabelCache.h"
+#include "CornerEffects.h"
 #include "LatticeRegions.h"
 #include "ShellPaths.h"
-#include "SimplePoint.h"
 #include "SomeCells.h"
 
 #include <algorithm>
@@ -18,20 +16,11 @@ namespace silhouette
 namespace
 {
 
-/** What labelling a corner inside does to the topology, best first. */
-enum class Effect : int
-{
-  Nothing,  ///< the corner is simple
-  Joins,    ///< it joins components and makes no tunnel
-  Founds,   ///< it starts a component of its own
-  Otherwise ///< tunnels or cavities may come or go
-};
-
 constexpr std::uint32_t None = 0xffffffffu;
 
 struct Candidate
 {
-  Effect effect = Effect::Otherwise;
+  CornerEffect effect = CornerEffect::Otherwise;
   float support = -1e30f;
   int covers = 0;
   std::uint32_t corner = None;
@@ -48,11 +37,8 @@ class Covering
 public:
   Covering(LatticeLabels& labels, int loop, const CornerDepth* depth, Execution& execution)
     : Labels(labels)
-    , Cache(labels)
+    , Effects(labels, depth)
     , Loop(loop)
-    , Depth(depth)
-    , Supports(depth ? labels.shell().corners.size() : 0, Unknown)
-    , Effects(labels.shell().corners.size(), NotAsked)
     , Solid(connectRegions(labels, true, execution))
   {
   }
@@ -60,7 +46,7 @@ public:
   CoveringResult run(const std::vector<Bridge>& bridges, Execution& execution)
   {
     this->findLost();
-    this->lookAhead(execution);
+    this->Effects.lookAhead(this->Lost, execution);
     this->coverAll();
     this->joinWithinCells();
     this->joinAcrossCorners();
@@ -79,22 +65,6 @@ private:
     return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return this->inside(c); });
   }
 
-  float support(std::uint32_t corner)
-  {
-    if (!this->Depth)
-    {
-      return this->Labels.support()[corner];
-    }
-    float& known = this->Supports[corner];
-    if (known == Unknown)
-    {
-      known = this->depthOf(corner);
-    }
-    return known;
-  }
-
-  float depthOf(std::uint32_t corner) const { return float((*this->Depth)(fromMorton(this->shell().corners[corner]))); }
-
   void findLost()
   {
     for (std::uint32_t cell = 0; cell < this->shell().cells.size(); ++cell)
@@ -107,114 +77,7 @@ private:
     this->Result.coveredCells = this->Lost;
   }
 
-  /** What the labels around a corner tell of its effect; `LabelCache` is of whoever asks. */
-  static TopologicalNumbers numbersAt(const LatticePoint& p, LabelCache& cache)
-  {
-    Neighbourhood labels;
-    for (int n = 0; n < 27; ++n)
-    {
-      labels[n] = n != 13 && cache.insideAt(neighbourOf(p, n));
-    }
-    return topologicalNumbers(labels);
-  }
-
-  /** The effect as far as it is a matter of the labels around a corner: `Depends` where it is one of components too. */
-  static std::uint8_t localEffect(const TopologicalNumbers& numbers)
-  {
-    const Effect effect = isSimple(numbers) ? Effect::Nothing : numbers.inside == 0 ? Effect::Founds : Effect::Otherwise;
-    return std::uint8_t(effect == Effect::Otherwise && numbers.outside == 1 ? int(Depends) : int(effect));
-  }
-
-  Effect effectOf(std::uint32_t corner)
-  {
-    std::uint8_t& known = this->Effects[corner];
-    if (known < Depends)
-    {
-      return Effect(known);
-    }
-    const LatticePoint p = fromMorton(this->shell().corners[corner]);
-    const auto numbers = numbersAt(p, this->Cache);
-    known = localEffect(numbers);
-    return known < Depends ? Effect(known) : this->distinctComponents(p, numbers) ? Effect::Joins : Effect::Otherwise;
-  }
-
-  /**
-   * What the lost cells will ask first, side by side: the effects of their corners on the labels as they are, and the depths of those that are equal.
-   * Decides nothing.
-   */
-  void lookAhead(Execution& execution)
-  {
-    std::vector<std::uint32_t> corners;
-    for (const std::uint32_t cell : this->Lost)
-    {
-      for (const std::uint32_t corner : this->shell().cellCorners[cell])
-      {
-        if (this->Effects[corner] == NotAsked && !this->onBorder(corner)) // no corner of a lost cell is inside
-        {
-          this->Effects[corner] = Asked;
-          corners.push_back(corner);
-        }
-      }
-    }
-    execution.forRanges(corners.size(), 64,
-      [&](std::size_t first, std::size_t last)
-      {
-        LabelCache cache(this->Labels);
-        for (std::size_t n = first; n < last; ++n)
-        {
-          this->Effects[corners[n]] = localEffect(numbersAt(fromMorton(this->shell().corners[corners[n]]), cache));
-        }
-      });
-    if (!this->Depth)
-    {
-      return;
-    }
-    corners.clear();
-    for (const std::uint32_t cell : this->Lost)
-    {
-      const auto& all = this->shell().cellCorners[cell];
-      std::uint8_t least = NotAsked;
-      for (const std::uint32_t corner : all)
-      {
-        least = std::min(least, this->Effects[corner]);
-      }
-      const auto isEqual = [&](std::uint32_t corner) { return this->Effects[corner] == least; };
-      if (least < NotAsked && std::count_if(all.begin(), all.end(), isEqual) > 1)
-      {
-        std::copy_if(all.begin(), all.end(), std::back_inserter(corners), isEqual);
-      }
-    }
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    execution.forRanges(corners.size(), 16,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t n = first; n < last; ++n)
-        {
-          this->Supports[corners[n]] = this->depthOf(corners[n]);
-        }
-      });
-  }
-
-  /** Do the local components around p belong to as many components of the whole solid? */
-  bool distinctComponents(const LatticePoint& p, const TopologicalNumbers& numbers)
-  {
-    std::vector<std::uint32_t> roots;
-    for (int part = 0; part < numbers.inside; ++part)
-    {
-      for (int n = 0; n < 27; ++n)
-      {
-        const auto corner = numbers.insideComponent[n] == part ? this->shell().find(mortonCode(neighbourOf(p, n))) : -1;
-        if (corner >= 0)
-        {
-          roots.push_back(this->component(std::uint32_t(corner)));
-          break;
-        }
-      }
-    }
-    std::sort(roots.begin(), roots.end());
-    return int(roots.size()) == numbers.inside && std::adjacent_find(roots.begin(), roots.end()) == roots.end();
-  }
+  CornerEffect effectOf(std::uint32_t corner) { return this->Effects.of(corner, this->Solid); }
 
   bool onBorder(std::uint32_t corner) const
   {
@@ -231,11 +94,11 @@ private:
   }
 
   /** A corner that is not on the border. */
-  Candidate consider(std::uint32_t corner, Effect effect)
+  Candidate consider(std::uint32_t corner, CornerEffect effect)
   {
     Candidate candidate;
     candidate.corner = corner;
-    candidate.support = this->support(corner);
+    candidate.support = this->Effects.support(corner);
     candidate.effect = effect;
     candidate.covers = this->covers(corner);
     return candidate;
@@ -245,18 +108,18 @@ private:
    * The best of a cell's corners that is not inside yet; corner None where there is none or its effect is beyond `most`. Support, which takes
    * longest, is asked for only among equals, and what they cover only where that is equal too.
    */
-  Candidate best(std::uint32_t cell, Effect most = Effect::Otherwise)
+  Candidate best(std::uint32_t cell, CornerEffect most = CornerEffect::Otherwise)
   {
     std::array<std::uint32_t, 8> equals;
     std::size_t count = 0;
-    Effect least = most;
+    CornerEffect least = most;
     for (const std::uint32_t corner : this->shell().cellCorners[cell])
     {
       if (this->inside(corner) || this->onBorder(corner))
       {
         continue;
       }
-      const Effect effect = this->effectOf(corner);
+      const CornerEffect effect = this->effectOf(corner);
       if (effect <= least)
       {
         count = effect < least ? 0 : count;
@@ -267,11 +130,11 @@ private:
     Candidate best;
     best.effect = least;
     best.corner = count > 0 ? equals[0] : best.corner;
-    best.support = count > 1 ? this->support(best.corner) : best.support;
+    best.support = count > 1 ? this->Effects.support(best.corner) : best.support;
     for (std::size_t n = 1; n < count; ++n)
     {
       const std::uint32_t corner = equals[n];
-      const float support = this->support(corner);
+      const float support = this->Effects.support(corner);
       bool isBetter = support > best.support;
       if (support == best.support)
       {
@@ -285,24 +148,18 @@ private:
   }
 
   /** Label a corner inside, of which the effect is known. */
-  void add(std::uint32_t corner, Effect effect)
+  void add(std::uint32_t corner, CornerEffect effect)
   {
-    const LatticePoint p = fromMorton(this->shell().corners[corner]);
-    this->Result.mayEnclose = this->Result.mayEnclose || effect == Effect::Otherwise;
+    this->Result.mayEnclose = this->Result.mayEnclose || effect == CornerEffect::Otherwise;
     this->Labels.setInside(corner);
-    this->Cache.setInside(this->shell().corners[corner]);
     this->Result.coveringCorners.push_back(corner);
+    const auto around = this->Effects.setInside(corner);
     for (int n = 0; n < 27; ++n)
     {
       const int differing = (n % 3 != 1) + (n / 3 % 3 != 1) + (n / 9 != 1);
-      const auto other = n != 13 ? this->Corners.find(mortonCode(neighbourOf(p, n))) : -1;
-      if (other >= 0)
+      if (around[n] >= 0 && differing <= 2 && this->inside(std::uint32_t(around[n])))
       {
-        this->Effects[std::size_t(other)] = NotAsked;
-        if (differing <= 2 && this->inside(std::uint32_t(other)))
-        {
-          this->Solid.sets.unite(corner, std::uint32_t(other));
-        }
+        this->Solid.sets.unite(corner, std::uint32_t(around[n]));
       }
     }
   }
@@ -343,7 +200,7 @@ private:
       {
         continue;
       }
-      const Candidate candidate = this->best(cell, growing ? Effect::Joins : Effect::Otherwise);
+      const Candidate candidate = this->best(cell, growing ? CornerEffect::Joins : CornerEffect::Otherwise);
       if (!growing || candidate.corner != None)
       {
         this->add(candidate.corner, candidate.effect);
@@ -537,21 +394,9 @@ private:
     this->settle();
   }
 
-  static constexpr float Unknown = 1.0f; ///< no depth
-  enum : std::uint8_t
-  {
-    Depends = 4,  ///< after all effects
-    Asked = 0xfe, ///< while looking ahead
-    NotAsked = 0xff
-  };
-
   LatticeLabels& Labels;
-  LabelCache Cache;
-  CodeCursor Corners{ Labels.shell().corners };
+  CornerEffects Effects;
   int Loop;
-  const CornerDepth* Depth;
-  std::vector<float> Supports;       ///< by Depth, of each corner of the shell that it was asked for
-  std::vector<std::uint8_t> Effects; ///< of each corner, as long as no label around it changes
   LatticeRegions Solid;
   std::vector<std::uint32_t> Lost;
   std::deque<std::uint32_t> Unsettled;

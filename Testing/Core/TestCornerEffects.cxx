@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CornerEffects.h"
+
+#include "LabelledSolids.h"
+
+#include <gtest/gtest.h>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+/** Two boxes with a layer of points between them, and a ring beside. */
+double boxesAndRing(const LatticePoint& p)
+{
+  const double boxes = std::max(boxField(p, { 4, 4, 4 }, { 8, 8, 8 }), boxField(p, { 10, 4, 4 }, { 14, 8, 8 }));
+  const double ring = std::min(boxField(p, { 4, 14, 14 }, { 14, 24, 16 }), -boxField(p, { 8, 18, 10 }, { 8, 18, 20 }));
+  return std::max(boxes, ring);
+}
+
+struct Scene
+{
+  LabelledSolid solid{ 5, boxesAndRing };
+  LatticeRegions regions = connectRegions(*solid.labels, true, solid.execution);
+
+  std::uint32_t corner(const LatticePoint& p) const { return std::uint32_t(solid.labels->shell().find(mortonCode(p))); }
+};
+
+} // namespace
+
+TEST(CornerEffects, AreWhatLabellingTheCornerDoes)
+{
+  Scene scene;
+  CornerEffects effects(*scene.solid.labels, nullptr);
+  const std::pair<LatticePoint, CornerEffect> cases[] = { { { 6, 6, 9 }, CornerEffect::Nothing }, { { 9, 6, 6 }, CornerEffect::Joins },
+    { { 20, 6, 6 }, CornerEffect::Founds }, { { 8, 18, 15 }, CornerEffect::Otherwise } };
+  for (const auto& [p, expected] : cases)
+  {
+    EXPECT_EQ(effects.of(scene.corner(p), scene.regions), expected) << p.i;
+    EXPECT_EQ(effects.of(scene.corner(p), scene.regions), expected) << "asked again";
+    EXPECT_EQ(effects.support(scene.corner(p)), scene.solid.labels->support()[scene.corner(p)]);
+  }
+}
+
+/** Beside a corner that was labelled, effects are others; and once components have met, joining them makes a tunnel. */
+TEST(CornerEffects, FollowTheLabelsAndTheComponents)
+{
+  Scene scene;
+  CornerEffects effects(*scene.solid.labels, nullptr);
+  const std::uint32_t lone = scene.corner({ 20, 6, 6 }), beside = scene.corner({ 21, 6, 6 });
+  ASSERT_EQ(effects.of(beside, scene.regions), CornerEffect::Founds);
+  scene.solid.labels->setInside(lone);
+  const auto around = effects.setInside(lone);
+  EXPECT_EQ(around[14], std::ptrdiff_t(beside));
+  EXPECT_EQ(around[13], -1);
+  EXPECT_EQ(effects.of(beside, scene.regions), CornerEffect::Nothing);
+  const std::uint32_t between = scene.corner({ 9, 6, 6 });
+  ASSERT_EQ(effects.of(between, scene.regions), CornerEffect::Joins);
+  scene.regions.sets.unite(scene.corner({ 8, 6, 6 }), scene.corner({ 10, 6, 6 }));
+  EXPECT_EQ(effects.of(between, scene.regions), CornerEffect::Otherwise);
+}
+
+/** Looking ahead changes no answer. */
+TEST(CornerEffects, LookingAheadDecidesNothing)
+{
+  Scene scene;
+  const auto& shell = scene.solid.labels->shell();
+  std::vector<std::uint32_t> lost;
+  for (std::uint32_t cell = 0; cell < shell.cells.size(); ++cell)
+  {
+    const auto& corners = shell.cellCorners[cell];
+    if (std::none_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return scene.solid.labels->inside()[c] != 0; }))
+    {
+      lost.push_back(cell);
+    }
+  }
+  CornerEffects ahead(*scene.solid.labels, nullptr), plain(*scene.solid.labels, nullptr);
+  ahead.lookAhead(lost, scene.solid.execution);
+  std::size_t asked = 0;
+  for (std::uint32_t c = 0; c < shell.corners.size(); ++c)
+  {
+    if (!scene.solid.labels->inside()[c] && !scene.solid.octree.lattice.onBorder(fromMorton(shell.corners[c])))
+    {
+      ASSERT_EQ(ahead.of(c, scene.regions), plain.of(c, scene.regions)) << c;
+      ++asked;
+    }
+  }
+  EXPECT_GT(asked, 10000u);
+}
