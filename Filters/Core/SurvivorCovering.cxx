@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <iterator>
 #include <tuple>
 
 namespace silhouette
