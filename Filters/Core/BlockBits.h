@@ -7,6 +7,7 @@
 #include "Lattice.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -59,6 +60,44 @@ inline bool besideBlock(std::uint64_t block, int axis, bool ahead, std::uint64_t
   const std::uint64_t along = ahead ? (block | ~mine) + 1 : (block & mine) - 1;
   other = (along & mine) | (block & ~mine);
   return ahead || (block & mine) != 0;
+}
+
+/** For each n of 0 to 7: which points of a block have a cell at the point less cornerOffset(n). `cellsOf(block)`: the cells of a block. */
+template <typename CellsOf> std::array<std::uint64_t, 8> cellsBehind(std::uint64_t block, const CellsOf& cellsOf)
+{
+  std::array<std::uint64_t, 8> words{}; // of the block and those behind it on the axes of n
+  for (unsigned n = 0; n < 8; ++n)
+  {
+    std::uint64_t other = block;
+    bool exists = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      exists = exists && ((n >> axis & 1) == 0 || besideBlock(other, axis, false, other));
+    }
+    words[n] = exists ? cellsOf(other) : 0;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (unsigned n = 0; n < 8; ++n)
+    {
+      if (n >> axis & 1)
+      {
+        words[n] = fromBehind(words[n ^ 1u << axis], words[n], axis);
+      }
+    }
+  }
+  return words;
+}
+
+/** The points of a block that are corners of cells. */
+template <typename CellsOf> std::uint64_t pointsTouching(std::uint64_t block, const CellsOf& cellsOf)
+{
+  std::uint64_t points = 0;
+  for (const std::uint64_t cells : cellsBehind(block, cellsOf))
+  {
+    points |= cells;
+  }
+  return points;
 }
 
 /** The points of a block that lie within the root cube and not on its border. */

@@ -50,7 +50,7 @@ CornerEffects::CornerEffects(const LatticeLabels& labels, const CornerDepth* dep
 {
 }
 
-CornerEffect CornerEffects::of(std::uint32_t corner, LatticeRegions& solid)
+CornerEffect CornerEffects::of(std::uint32_t corner, SolidComponents& solid)
 {
   std::uint8_t& known = this->Effects[corner];
   if (known < Depends)
@@ -159,7 +159,7 @@ void CornerEffects::lookAhead(const std::vector<std::uint32_t>& cells, Execution
 }
 
 /** Do the local components around p belong to as many components of the whole solid? */
-bool CornerEffects::distinctComponents(const LatticePoint& p, const TopologicalNumbers& numbers, LatticeRegions& solid)
+bool CornerEffects::distinctComponents(const LatticePoint& p, const TopologicalNumbers& numbers, SolidComponents& solid)
 {
   std::vector<std::uint32_t> roots;
   for (int part = 0; part < numbers.inside; ++part)
@@ -169,7 +169,7 @@ bool CornerEffects::distinctComponents(const LatticePoint& p, const TopologicalN
       const auto corner = numbers.insideComponent[n] == part ? this->Corners.find(mortonCode(neighbourOf(p, n))) : -1;
       if (corner >= 0)
       {
-        roots.push_back(solid.sets.find(std::uint32_t(corner)));
+        roots.push_back(solid.of(std::uint32_t(corner)));
         break;
       }
     }

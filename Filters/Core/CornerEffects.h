@@ -33,8 +33,8 @@ public:
   /** Labels and `depth`, which may be null, have to outlive this; the shell has to stay. */
   CornerEffects(const LatticeLabels& labels, const CornerDepth* depth);
 
-  /** The effect now; `solid` are the solid's regions now. Cost: a few operations where it is known, else the 26 points around. */
-  CornerEffect of(std::uint32_t corner, LatticeRegions& solid);
+  /** The effect now; `solid` are the solid's components now. Cost: a few operations where it is known, else the 26 points around. */
+  CornerEffect of(std::uint32_t corner, SolidComponents& solid);
   /** How little far outside the silhouettes a corner is, by `depth`; without it the labels' support. */
   float support(std::uint32_t corner);
 
@@ -52,7 +52,7 @@ private:
   float depthOf(std::uint32_t corner) const { return float((*this->Depth)(this->point(corner))); }
   std::vector<std::uint32_t> cornersToAsk(const std::vector<std::uint32_t>& cells);
   std::vector<std::uint32_t> equalCorners(const std::vector<std::uint32_t>& cells) const;
-  bool distinctComponents(const LatticePoint& p, const TopologicalNumbers& numbers, LatticeRegions& solid);
+  bool distinctComponents(const LatticePoint& p, const TopologicalNumbers& numbers, SolidComponents& solid);
 
   const LatticeLabels& Labels;
   const CornerDepth* Depth;

@@ -41,33 +41,6 @@ struct CellBlocks
   }
 };
 
-/** For each n, which points of a block have a cell at the point less cornerOffset(n). */
-std::array<std::uint64_t, 8> cellsBehind(const CellBlocks& blocks, std::uint64_t block)
-{
-  std::array<std::uint64_t, 8> words{}; // of the block and those behind it on the axes of n
-  for (unsigned n = 0; n < 8; ++n)
-  {
-    std::uint64_t other = block;
-    bool exists = true;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      exists = exists && ((n >> axis & 1) == 0 || besideBlock(other, axis, false, other));
-    }
-    words[n] = exists ? blocks.of(other) : 0;
-  }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    for (unsigned n = 0; n < 8; ++n)
-    {
-      if (n >> axis & 1)
-      {
-        words[n] = fromBehind(words[n ^ 1u << axis], words[n], axis);
-      }
-    }
-  }
-  return words;
-}
-
 /** Bit i of byte n to bit n of byte i: a square of bits transposed by halves. */
 std::uint64_t transposed(std::uint64_t square)
 {
@@ -121,7 +94,7 @@ std::vector<std::uint8_t> intersectionAround(const Octree& octree, const CornerS
         if (code >> 6 != block)
         {
           block = code >> 6;
-          ofBlock = aroundPoints(cellsBehind(blocks, block));
+          ofBlock = aroundPoints(cellsBehind(block, [&](std::uint64_t other) { return blocks.of(other); }));
         }
         around[c] = ofBlock[code & 63];
       }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace silhouette
@@ -128,6 +129,15 @@ inline void sortUnique(std::vector<std::uint64_t>& codes)
 {
   std::sort(codes.begin(), codes.end());
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+}
+
+/** The codes of both of two sets, each ascending and no code twice. */
+inline std::vector<std::uint64_t> united(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b)
+{
+  std::vector<std::uint64_t> both;
+  both.reserve(a.size() + b.size());
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  return both;
 }
 
 } // namespace silhouette

@@ -346,10 +346,37 @@ bool LatticeLabels::isInside(const Octree::Location& octant) const
 
 std::uint64_t LatticeLabels::insideOfBlock(std::uint64_t block) const
 {
+  OctantCursor octants(*this->TheOctree);
+  Corner corner = std::lower_bound(this->Shell.corners.begin(), this->Shell.corners.end(), 64 * block);
+  return this->insideOfBlock(block, corner, octants);
+}
+
+std::vector<std::uint64_t> LatticeLabels::insideOfBlocks(const std::vector<std::uint64_t>& blocks, Execution& execution) const
+{
+  std::vector<std::uint64_t> inside(blocks.size());
+  execution.forRanges(blocks.size(), 256,
+    [&](std::size_t first, std::size_t last)
+    {
+      OctantCursor octants(*this->TheOctree);
+      Corner corner = std::lower_bound(this->Shell.corners.begin(), this->Shell.corners.end(), 64 * blocks[first]);
+      for (std::size_t b = first; b < last; ++b)
+      {
+        while (corner != this->Shell.corners.end() && *corner >> 6 < blocks[b])
+        {
+          ++corner;
+        }
+        inside[b] = this->insideOfBlock(blocks[b], corner, octants);
+      }
+    });
+  return inside;
+}
+
+/** `corner`: the shell's first that is not before the block; then the first after it. */
+std::uint64_t LatticeLabels::insideOfBlock(std::uint64_t block, Corner& corner, OctantCursor& octants) const
+{
   const std::uint64_t within = withinBorder(this->TheOctree->lattice, block);
   std::uint64_t known = 0, inside = 0;
-  const auto first = std::lower_bound(this->Shell.corners.begin(), this->Shell.corners.end(), 64 * block);
-  for (auto corner = first; corner != this->Shell.corners.end() && *corner >> 6 == block; ++corner)
+  for (; corner != this->Shell.corners.end() && *corner >> 6 == block; ++corner)
   {
     known |= std::uint64_t(1) << (*corner & 63);
     inside |= std::uint64_t(this->Inside[std::size_t(corner - this->Shell.corners.begin())] != 0) << (*corner & 63);
@@ -357,52 +384,34 @@ std::uint64_t LatticeLabels::insideOfBlock(std::uint64_t block) const
   const std::uint64_t unknown = within & ~known;
   if (unknown != 0)
   {
-    inside |= unknown & (this->Field ? this->unlabelledByField(block, unknown) : this->unlabelledOfBlock(block));
+    inside |= unknown & this->unlabelledOfBlock(block, octants);
   }
   return inside & within;
 }
 
-/** Of the `asked` points alone. A block lies in one of the field's bricks, or in none. */
-std::uint64_t LatticeLabels::unlabelledByField(std::uint64_t block, std::uint64_t asked) const
+/**
+ * A block lies in one of the field's bricks, or in none. Without a field each point's octant tells, the one that has it for its lowest corner or holds
+ * that one.
+ */
+std::uint64_t LatticeLabels::unlabelledOfBlock(std::uint64_t block, OctantCursor& octants) const
 {
+  if (!this->Field)
+  {
+    return octants.cellsOfBlock(block, [this](const Octree::Location& octant) { return this->isInside(octant); });
+  }
   const std::ptrdiff_t first = this->Field->find(64 * block);
-  std::uint64_t inside = 0;
-  for (; asked != 0; asked &= asked - 1)
+  if (first >= 0)
   {
-    const int n = lowestBit(asked);
-    const bool isInside = first >= 0 ? this->Field->values()[std::size_t(first + n)] > 0.0f
-                                     : this->TheOctree->touchesInside(fromMorton(64 * block + std::uint64_t(n)));
-    inside |= std::uint64_t(isInside) << n;
+    std::uint64_t inside = 0;
+    for (std::size_t n = 0; n < 64; ++n)
+    {
+      inside |= std::uint64_t(this->Field->values()[std::size_t(first) + n] > 0.0f) << n;
+    }
+    return inside;
   }
-  return inside;
-}
-
-/** Without a field each point's octant tells, the one that has it for its lowest corner or holds that one. */
-std::uint64_t LatticeLabels::unlabelledOfBlock(std::uint64_t block) const
-{
-  const Octree& octree = *this->TheOctree;
-  OctantCursor octants(octree);
-  std::uint64_t inside = 0;
-  for (unsigned child = 0; child < 8; ++child)
-  {
-    auto octant = octants.locate(fromMorton(64 * block + 8 * child));
-    const int size = octree.lattice.depth - octant.generation; // halvings that are left
-    if (child == 0 && octant.generation >= 0 && size >= 2)
-    {
-      return this->isInside(octant) ? ~std::uint64_t(0) : 0;
-    }
-    if (octant.generation < 0 || size >= 1)
-    {
-      inside |= std::uint64_t(this->isInside(octant) ? 0xff : 0) << 8 * child;
-      continue;
-    }
-    for (unsigned n = 0; n < 8; ++n, ++octant.index)
-    {
-      octant.state = octree.last().state[octant.index];
-      inside |= std::uint64_t(this->isInside(octant)) << (8 * child + n);
-    }
-  }
-  return inside;
+  return pointsTouching(block,
+    [&](std::uint64_t other)
+    { return octants.cellsOfBlock(other, [](const Octree::Location& octant) { return octant.state == OctantState::Inside; }); });
 }
 
 int LatticeLabels::cellsAround(const LatticePoint& p, std::array<std::uint32_t, 8>& cells) const

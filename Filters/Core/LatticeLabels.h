@@ -104,6 +104,8 @@ public:
   bool insideAt(const LatticePoint& p) const;
   /** Labels of the 4 x 4 x 4 points of Morton codes 64 `block` to 64 `block` + 63, a bit each, the first the lowest; 1 inside. */
   std::uint64_t insideOfBlock(std::uint64_t block) const;
+  /** The same for many blocks, ascending. Cost: linear. */
+  std::vector<std::uint64_t> insideOfBlocks(const std::vector<std::uint64_t>& blocks, Execution& execution) const;
   /** Is a cell of the shell an intersection octant, and not a further cell? */
   bool isSurvivor(std::size_t cell) const { return this->Survivor[cell] != 0; }
   /** Numbers of the surviving cells of the shell around a lattice point, at most eight; returns how many. */
@@ -112,8 +114,9 @@ public:
 private:
   /** Label of a lattice point that is no corner of the shell. */
   bool unlabelled(const LatticePoint& p) const;
-  std::uint64_t unlabelledOfBlock(std::uint64_t block) const;
-  std::uint64_t unlabelledByField(std::uint64_t block, std::uint64_t asked) const;
+  using Corner = std::vector<std::uint64_t>::const_iterator;
+  std::uint64_t insideOfBlock(std::uint64_t block, Corner& corner, OctantCursor& octants) const;
+  std::uint64_t unlabelledOfBlock(std::uint64_t block, OctantCursor& octants) const;
   bool isInside(const Octree::Location& octant) const;
   void labelByVotes(const std::vector<std::uint16_t>& votes);
   void fromOctree();

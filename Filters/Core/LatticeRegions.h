@@ -1,43 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Connected regions of labelled lattice corners, across the whole octree: inside corners are joined as our
- * marching-cubes table joins them (18-neighbourhood), outside ones through lattice edges, and octants that are
- * wholly inside or background join what they touch.
+ * Connected regions of labelled lattice points, across the whole octree: inside points are joined as our marching-cubes table joins them
+ * (18-neighbourhood), outside ones through lattice edges; and of the survivors, which are joined where they touch.
  */
 #pragma once
 
-#include "ConcurrentUnionFind.h"
+#include "BlockRegions.h"
 #include "LatticeLabels.h"
+#include "UnionFind.h"
+
+#include <array>
+#include <vector>
 
 namespace silhouette
 {
 
-/** Sets over the shell's corners (or whatever comes first), then all octants of the octree, then the world beyond the root cube. */
-struct LatticeRegions
+/** Blocks with corners of the labels' shell, with octants smaller than a block, and those where the labels' field has values: elsewhere octants tell. */
+std::vector<std::uint64_t> labelledBlocks(const LatticeLabels& labels);
+
+/** Regions of the points with the given label. */
+BlockRegions connectRegions(const LatticeLabels& labels, bool inside, Execution& execution);
+
+/** Components of the solid, by the shell's corners, while more of these become inside. Not for several threads at once. */
+class SolidComponents
 {
-  ConcurrentUnionFind sets;
-  std::vector<std::size_t> firstOctant; ///< number of the first octant of each generation
-  std::uint32_t beyond = 0;             ///< the world beyond the root cube
+public:
+  SolidComponents(const LatticeLabels& labels, Execution& execution);
 
-  /** Number of an octant among the sets. */
-  std::uint32_t octant(int generation, std::size_t index) const
-  {
-    return std::uint32_t(this->firstOctant[std::size_t(generation)] + index);
-  }
-  /** The same among the octants alone. */
-  std::size_t place(int generation, std::size_t index) const { return this->octant(generation, index) - this->firstOctant[0]; }
-  /** How many octants there are. */
-  std::size_t octants() const { return this->beyond - this->firstOctant[0]; }
+  /** Stands for the component of an inside corner. */
+  std::uint32_t of(std::uint32_t corner) { return this->Sets.find(this->Numbers[corner]); }
+  /** A corner is inside now; `around`: the corners of its 26 neighbours by neighbourOf(), -1 where there is none. */
+  void add(std::uint32_t corner, const std::array<std::ptrdiff_t, 27>& around);
+
+private:
+  std::vector<std::uint32_t> Numbers; ///< of each corner; BlockRegions::None for those outside
+  UnionFind Sets;
 };
-
-/** Regions of the corners with the given label. Numbers of corners and octants with the other label are alone. */
-LatticeRegions connectRegions(const LatticeLabels& labels, bool inside, Execution& execution);
-
-/**
- * Regions of the background octants that are at least `width` leaf octants wide, and of the world beyond; nothing else is joined. `others` numbers come
- * before the octants', for the caller to join.
- */
-LatticeRegions connectWideOutside(const LatticeLabels& labels, int width, std::size_t others, Execution& execution);
 
 /** Label the cavities, outside regions that do not reach the world beyond, inside; returns their number. */
 std::uint64_t fillCavities(LatticeLabels& labels, Execution& execution);
@@ -45,10 +43,10 @@ std::uint64_t fillCavities(LatticeLabels& labels, Execution& execution);
 /** Label inside regions that hold neither a corner of a survivor nor an inside octant outside; returns their number. */
 std::uint64_t dropUnsupported(LatticeLabels& labels, Execution& execution);
 
-/** Sets of the survivors that touch (26-neighbourhood), each with its corners; `shell` is that of the intersection octants. */
-LatticeRegions connectSurvivors(const Octree& octree, const CornerShell& shell, Execution& execution);
+/** Regions of the leaf cells of survivors: of the last generation's intersection and all inside octants, in the 26-neighbourhood. */
+BlockRegions connectSurvivors(const Octree& octree, Execution& execution);
 
-/** Number of components of the last generation's and all inside octants in the 26-neighbourhood. */
+/** Number of components of the survivors. */
 std::uint64_t countSurvivorComponents(const Octree& octree, Execution& execution);
 
 } // namespace silhouette

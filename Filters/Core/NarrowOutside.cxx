@@ -35,56 +35,43 @@ std::vector<std::uint64_t> mixedBlocks(const LatticeLabels& labels)
   return blocks;
 }
 
-} // namespace
-
-NarrowOutside::NarrowOutside(const LatticeLabels& labels, int width, Execution& execution)
-  : Labels(&labels)
-  , Blocks(mixedBlocks(labels))
-{
-  this->addBlocks(width);
-  this->fill(execution);
-  execution.checkpoint(0.5);
-  this->openByCubes(width, execution);
-  execution.checkpoint(1.0);
-}
-
 /**
- * All blocks with points within `width` octants of a cell with corners of both labels. From an outside point elsewhere no such cell is within a cube's
- * reach: there it is wide.
+ * All blocks with points within `width` octants of a cell of the given blocks. From an outside point elsewhere no cell with corners of both labels is
+ * within a cube's reach: there it is wide.
  */
-void NarrowOutside::addBlocks(int width)
+std::vector<std::uint64_t> blocksNear(std::vector<std::uint64_t> blocks, int width)
 {
   const int reach = 1 + width / BlockSide;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const std::size_t count = this->Blocks.size();
+    const std::size_t count = blocks.size();
     for (std::size_t b = 0; b < count; ++b)
     {
       for (const bool ahead : { true, false })
       {
-        std::uint64_t block = this->Blocks[b];
+        std::uint64_t block = blocks[b];
         for (int step = 0; step < reach && besideBlock(block, axis, ahead, block); ++step)
         {
-          this->Blocks.push_back(block);
+          blocks.push_back(block);
         }
       }
     }
-    std::sort(this->Blocks.begin(), this->Blocks.end());
-    this->Blocks.erase(std::unique(this->Blocks.begin(), this->Blocks.end()), this->Blocks.end());
+    sortUnique(blocks);
   }
+  return blocks;
 }
 
-void NarrowOutside::fill(Execution& execution)
+} // namespace
+
+NarrowOutside::NarrowOutside(const LatticeLabels& labels, int width, Execution& execution)
+  : Labels(&labels)
+  , Blocks(blocksNear(mixedBlocks(labels), width))
 {
-  this->Free.resize(this->Blocks.size());
-  execution.forRanges(this->Blocks.size(), 256,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t b = first; b < last; ++b)
-      {
-        this->Free[b] = ~this->Labels->insideOfBlock(this->Blocks[b]);
-      }
-    });
+  this->Free = labels.insideOfBlocks(this->Blocks.codes(), execution);
+  std::transform(this->Free.begin(), this->Free.end(), this->Free.begin(), [](std::uint64_t inside) { return ~inside; });
+  execution.checkpoint(0.5);
+  this->openByCubes(width, execution);
+  execution.checkpoint(1.0);
 }
 
 /** First whether a cube fits that begins in a point, then whether one holds it. What lies in no block is taken for outside. */
@@ -125,7 +112,7 @@ std::vector<std::uint32_t> NarrowOutside::blocksBeside(int axis, bool ahead, Exe
       {
         std::uint64_t other = 0;
         const bool exists = besideBlock(this->Blocks[b], axis, ahead, other);
-        const std::ptrdiff_t at = exists ? findBlock(this->Blocks, other) : -1;
+        const std::ptrdiff_t at = exists ? this->Blocks.find(other) : -1;
         beside[b] = at < 0 ? Nowhere : std::uint32_t(at);
       }
     });
@@ -157,7 +144,7 @@ NarrowOutside::Label NarrowOutside::at(const LatticePoint& p) const
     return Label::Wide;
   }
   const std::uint64_t code = mortonCode(p);
-  const std::ptrdiff_t block = findBlock(this->Blocks, code >> 6);
+  const std::ptrdiff_t block = this->Blocks.find(code >> 6);
   if (block < 0)
   {
     return this->Labels->insideAt(p) ? Label::Solid : Label::Wide;
@@ -166,10 +153,27 @@ NarrowOutside::Label NarrowOutside::at(const LatticePoint& p) const
   return !has(this->Free) ? Label::Solid : has(this->Narrow) ? Label::Narrow : Label::Wide;
 }
 
-std::uint64_t NarrowOutside::wideOfBlock(std::uint64_t block) const
+std::vector<std::uint64_t> NarrowOutside::wideOfBlocks(const std::vector<std::uint64_t>& blocks, Execution& execution) const
 {
-  const std::ptrdiff_t at = findBlock(this->Blocks, block);
-  return at < 0 ? ~this->Labels->insideOfBlock(block) : this->Free[std::size_t(at)] & ~this->Narrow[std::size_t(at)];
+  std::vector<std::uint64_t> others, wide(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    const std::ptrdiff_t at = this->Blocks.find(blocks[b]);
+    wide[b] = at >= 0 ? this->Free[std::size_t(at)] & ~this->Narrow[std::size_t(at)] : 0;
+    if (at < 0)
+    {
+      others.push_back(blocks[b]);
+    }
+  }
+  const std::vector<std::uint64_t> inside = this->Labels->insideOfBlocks(others, execution);
+  for (std::size_t b = 0, other = 0; other < others.size(); ++b)
+  {
+    if (blocks[b] == others[other])
+    {
+      wide[b] = ~inside[other++];
+    }
+  }
+  return wide;
 }
 
 } // namespace silhouette

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "BlockIndex.h"
 #include "LatticeLabels.h"
 
 #include <vector>
@@ -35,18 +36,19 @@ public:
   std::ptrdiff_t find(const LatticePoint& p) const;
   /** Of any lattice point. */
   Label at(const LatticePoint& p) const;
-  /** The wide points of any block of 4 x 4 x 4, the lowest bit the point of Morton code 64 `block`. */
-  std::uint64_t wideOfBlock(std::uint64_t block) const;
+  /** Morton codes, ascending, of the blocks of 4 x 4 x 4 points outside of which no point is narrow. */
+  const std::vector<std::uint64_t>& blocks() const { return this->Blocks.codes(); }
+  /** The wide points of many blocks, ascending: of each a bit each, the lowest for the point of Morton code 64 `block`. */
+  std::vector<std::uint64_t> wideOfBlocks(const std::vector<std::uint64_t>& blocks, Execution& execution) const;
 
 private:
-  void addBlocks(int width);
   void fill(Execution& execution);
   void openByCubes(int width, Execution& execution);
   std::vector<std::uint32_t> blocksBeside(int axis, bool ahead, Execution& execution) const;
   void findPoints(const std::vector<std::uint64_t>& opened);
 
   const LatticeLabels* Labels;
-  std::vector<std::uint64_t> Blocks; ///< Morton codes, ascending
+  BlockIndex Blocks;
   std::vector<std::uint64_t> Free;   ///< of each, its outside points
   std::vector<std::uint64_t> Narrow; ///< of these, the narrow ones
   std::vector<std::uint64_t> Points;

@@ -134,6 +134,11 @@ public:
   Octree::Location locate(const LatticePoint& cell);
   /** The same by the Morton code of a cell of the lattice, of an octree that has octants. */
   Octree::Location locate(std::uint64_t leaf);
+  /**
+   * Of the 4 x 4 x 4 leaf cells of Morton codes 64 `block` to 64 `block` + 63, a bit each, those for whose octant `is(location)` holds. Octants are asked
+   * about once, but for the smallest, which are asked about one by one. Cells of no tree and beyond the lattice have generation -1.
+   */
+  template <typename Is> std::uint64_t cellsOfBlock(std::uint64_t block, const Is& is);
 
 private:
   const Octree* Source;
@@ -141,5 +146,31 @@ private:
   int Deepest = -1; ///< generation of the octant found last; -1 where none is
   std::array<std::size_t, MaximumDepth + 1> Index{}; ///< of that octant and of those that it lies in
 };
+
+template <typename Is> std::uint64_t OctantCursor::cellsOfBlock(std::uint64_t block, const Is& is)
+{
+  const int depth = this->Source->lattice.depth;
+  std::uint64_t cells = 0;
+  for (unsigned child = 0; child < 8; ++child)
+  {
+    auto octant = this->locate(fromMorton(64 * block + 8 * child));
+    const int halvings = depth - octant.generation; // that are left
+    if (child == 0 && octant.generation >= 0 && halvings >= 2)
+    {
+      return is(octant) ? ~std::uint64_t(0) : 0;
+    }
+    if (octant.generation < 0 || halvings >= 1)
+    {
+      cells |= std::uint64_t(is(octant) ? 0xff : 0) << 8 * child;
+      continue;
+    }
+    for (unsigned n = 0; n < 8; ++n, ++octant.index)
+    {
+      octant.state = this->Source->last().state[octant.index];
+      cells |= std::uint64_t(is(octant)) << (8 * child + n);
+    }
+  }
+  return cells;
+}
 
 } // namespace silhouette

@@ -4,7 +4,6 @@
 #include "LatticeRegions.h"
 
 #include <algorithm>
-#include <map>
 #include <unordered_map>
 
 namespace silhouette
@@ -16,17 +15,19 @@ namespace
 class BridgeSearch
 {
 public:
-  BridgeSearch(const Octree& octree, const CornerShell& shell, ConcurrentUnionFind& sets)
+  /** `numbers`: for each corner of the shell one that is in the set of its component. */
+  BridgeSearch(const Octree& octree, const CornerShell& shell, const std::vector<std::uint32_t>& numbers, BlockRegions& survivors)
     : TheLattice(octree.lattice)
     , Shell(shell)
-    , Sets(sets)
+    , Numbers(numbers)
+    , Survivors(survivors)
   {
   }
 
   /** The bridge, or none within `gap` steps of the 26-neighbourhood. */
   Bridge find(const std::vector<std::uint32_t>& component, int gap)
   {
-    const std::uint32_t own = this->Sets.find(component.front());
+    const std::uint32_t own = this->componentOf(component.front());
     std::unordered_map<std::uint64_t, std::uint64_t> from;
     std::vector<std::uint64_t> front;
     for (const std::uint32_t corner : component)
@@ -51,9 +52,9 @@ public:
             continue;
           }
           const auto corner = this->Shell.find(mortonCode(p));
-          if (corner >= 0 && this->Sets.find(std::uint32_t(corner)) != own)
+          if (corner >= 0 && this->componentOf(std::uint32_t(corner)) != own)
           {
-            this->Sets.unite(own, std::uint32_t(corner));
+            this->Survivors.unite(own, this->Numbers[std::size_t(corner)]);
             return this->trace(mortonCode(p), from);
           }
           next.push_back(mortonCode(p));
@@ -65,6 +66,8 @@ public:
   }
 
 private:
+  std::uint32_t componentOf(std::uint32_t corner) { return this->Survivors.find(this->Numbers[corner]); }
+
   /** Back to the component; a step along a cube's diagonal gets a point between. */
   static Bridge trace(std::uint64_t code, const std::unordered_map<std::uint64_t, std::uint64_t>& from)
   {
@@ -83,8 +86,25 @@ private:
 
   const Lattice& TheLattice;
   const CornerShell& Shell;
-  ConcurrentUnionFind& Sets;
+  const std::vector<std::uint32_t>& Numbers;
+  BlockRegions& Survivors;
 };
+
+/** For each corner of the shell, all of whose cells are survivors, what stands for its component. */
+std::vector<std::uint32_t> componentsOfCorners(const CornerShell& shell, BlockRegions& survivors, Execution& execution)
+{
+  const std::vector<std::uint32_t> cells = survivors.numbersOf(shell.cells, execution);
+  std::vector<std::uint32_t> corners(shell.corners.size());
+  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+  {
+    const std::uint32_t component = survivors.find(cells[cell]);
+    for (const std::uint32_t corner : shell.cellCorners[cell])
+    {
+      corners[corner] = component;
+    }
+  }
+  return corners;
+}
 
 } // namespace
 
@@ -95,29 +115,26 @@ std::vector<Bridge> bridgeSurvivors(const Octree& octree, const CornerShell& she
   {
     return bridges;
   }
-  LatticeRegions survivors = connectSurvivors(octree, shell, execution);
-  bool several = false;
-  for (std::uint32_t corner = 1; corner < shell.corners.size() && !several; ++corner)
-  {
-    several = survivors.sets.find(corner) == corner;
-  }
-  if (!several)
+  BlockRegions survivors = connectSurvivors(octree, execution);
+  if (survivors.count() < 2)
   {
     return bridges;
   }
-  std::map<std::uint32_t, std::vector<std::uint32_t>> byRoot;
-  for (std::uint32_t corner = 0; corner < shell.corners.size(); ++corner)
+  const std::vector<std::uint32_t> numbers = componentsOfCorners(shell, survivors, execution);
+  std::vector<std::vector<std::uint32_t>> components; // by their first corners
+  std::unordered_map<std::uint32_t, std::size_t> places;
+  for (std::uint32_t corner = 0; corner < numbers.size(); ++corner)
   {
-    byRoot[survivors.sets.find(corner)].push_back(corner);
-  }
-  std::vector<std::vector<std::uint32_t>> components;
-  for (auto& one : byRoot)
-  {
-    components.push_back(std::move(one.second));
+    const auto place = places.emplace(numbers[corner], components.size());
+    if (place.second)
+    {
+      components.emplace_back();
+    }
+    components[place.first->second].push_back(corner);
   }
   std::stable_sort(components.begin(), components.end(),
     [](const auto& a, const auto& b) { return a.size() < b.size(); });
-  BridgeSearch search(octree, shell, survivors.sets);
+  BridgeSearch search(octree, shell, numbers, survivors);
   for (std::size_t c = 0; c + 1 < components.size(); ++c)
   {
     Bridge bridge = search.find(components[c], gap);

@@ -38,7 +38,7 @@ public:
     : Labels(labels)
     , Effects(labels, depth)
     , Loop(loop)
-    , Solid(connectRegions(labels, true, execution))
+    , Solid(labels, execution)
   {
   }
 
@@ -56,7 +56,7 @@ public:
 private:
   const CornerShell& shell() const { return this->Labels.shell(); }
   bool inside(std::uint32_t corner) const { return this->Labels.inside()[corner] != 0; }
-  std::uint32_t component(std::uint32_t corner) { return this->Solid.sets.find(corner); }
+  std::uint32_t component(std::uint32_t corner) { return this->Solid.of(corner); }
 
   bool covered(std::uint32_t cell) const
   {
@@ -152,15 +152,7 @@ private:
     this->Result.mayEnclose = this->Result.mayEnclose || effect == CornerEffect::Otherwise;
     this->Labels.setInside(corner);
     this->Result.coveringCorners.push_back(corner);
-    const auto around = this->Effects.setInside(corner);
-    for (int n = 0; n < 27; ++n)
-    {
-      const int differing = (n % 3 != 1) + (n / 3 % 3 != 1) + (n / 9 != 1);
-      if (around[n] >= 0 && differing <= 2 && this->inside(std::uint32_t(around[n])))
-      {
-        this->Solid.sets.unite(corner, std::uint32_t(around[n]));
-      }
-    }
+    this->Solid.add(corner, this->Effects.setInside(corner));
   }
 
   /** The same, and its cells may have a second component now. */
@@ -396,7 +388,7 @@ private:
   LatticeLabels& Labels;
   CornerEffects Effects;
   int Loop;
-  LatticeRegions Solid;
+  SolidComponents Solid;
   std::vector<std::uint32_t> Lost;
   std::deque<std::uint32_t> Unsettled;
   CoveringResult Result;

@@ -18,14 +18,8 @@ class Components
 public:
   Components(const Octree& octree, Execution& execution)
     : Source(octree)
+    , Regions(connectSurvivors(octree, execution))
   {
-    const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
-    execution.checkpoint(0.5);
-    this->Regions = connectSurvivors(octree, shell, execution);
-    for (const auto& corners : shell.cellCorners)
-    {
-      this->ByCell.push_back(this->Regions.sets.find(corners[0]));
-    }
   }
 
   /** Call `work(generation, index, component)` for every survivor. */
@@ -33,19 +27,14 @@ public:
   void forSurvivors(const Work& work)
   {
     const int depth = this->Source.lattice.depth;
-    std::size_t cell = 0;
     for (int g = this->Source.treeGeneration; g <= depth; ++g)
     {
-      const auto& states = this->Source.generations[g].state;
-      for (std::size_t i = 0; i < states.size(); ++i)
+      const Generation& generation = this->Source.generations[std::size_t(g)];
+      for (std::size_t i = 0; i < generation.size(); ++i)
       {
-        if (states[i] == OctantState::Inside)
+        if (generation.state[i] == OctantState::Inside || (g == depth && generation.state[i] == OctantState::Intersection))
         {
-          work(g, i, this->Regions.sets.find(this->Regions.octant(g, i)));
-        }
-        else if (g == depth && states[i] == OctantState::Intersection)
-        {
-          work(g, i, this->ByCell[cell++]);
+          work(g, i, this->Regions.find(this->Regions.at(generation.code[i] << 3 * (depth - g))));
         }
       }
     }
@@ -53,8 +42,7 @@ public:
 
 private:
   const Octree& Source;
-  LatticeRegions Regions;
-  std::vector<std::uint32_t> ByCell; ///< for each intersection octant of the last generation, in its order
+  BlockRegions Regions;
 };
 
 /** Octants of the last generation's size that an octant of a generation holds. */

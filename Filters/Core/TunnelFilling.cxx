@@ -154,7 +154,7 @@ private:
   /** This is done when first it is asked for, which on most objects is never. */
   void joinWide()
   {
-    this->Sets.emplace(this->Labels, this->Outside.outside(), this->Width, this->Run);
+    this->Sets.emplace(this->Labels, this->Outside.outside(), this->Run);
     for (std::size_t n = 0; n < this->Outside.size(); ++n)
     {
       if (this->Outside[n] == Taken)

@@ -40,6 +40,12 @@ public:
       this->Parent[a < b ? b : a] = a < b ? a : b;
     }
   }
+  /** One number more, alone; returns it. */
+  std::uint32_t add()
+  {
+    this->Parent.push_back(std::uint32_t(this->Parent.size()));
+    return this->Parent.back();
+  }
   std::size_t size() const { return this->Parent.size(); }
 
 private:

@@ -1,48 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What of a solid's wide outside is connected: points along lattice edges, near the surface by parts of blocks of 4 x 4 x 4 points, far from it by
- * the octree's background octants.
+ * What of a solid's wide outside is connected, points along lattice edges, and with which of it narrow points are joined.
  */
 #pragma once
 
-#include "ConcurrentUnionFind.h"
+#include "BlockRegions.h"
 #include "NarrowOutside.h"
-
-#include <vector>
 
 namespace silhouette
 {
 
-/** Sets of narrow points, parts of blocks, octants and the world beyond the root cube. */
+/** Sets of narrow points, of the wide outside's points, and of the world beyond the root cube. */
 class WideOutside
 {
 public:
-  /** `width` as that of the narrow outside, which has to outlive this. Cost: linear in the octants, and the points within 2 `width` of the surface. */
-  WideOutside(const LatticeLabels& labels, const NarrowOutside& narrow, int width, Execution& execution);
+  /** The narrow outside of the same labels. Cost: linear in the octants, and the points within some of its width of the surface. */
+  WideOutside(const LatticeLabels& labels, const NarrowOutside& narrow, Execution& execution);
 
-  /** Stands for the set of a wide point near the surface; `Nowhere` for points that are in no block. */
+  /** Stands for the set of a wide point; the world beyond the root cube is wide. `Nowhere` for other points. */
   std::uint32_t setOf(const LatticePoint& wide);
   /** Stands for the set of a narrow point, by its index: alone until it is joined. */
-  std::uint32_t setOf(std::size_t narrow) { return this->Sets.find(std::uint32_t(narrow)); }
+  std::uint32_t setOf(std::size_t narrow) { return this->Regions.find(this->Regions.other(narrow)); }
   /** Join a narrow point to a wide point beside it. */
   void join(std::size_t narrow, const LatticePoint& wide);
   /** Join two narrow points. */
-  void join(std::size_t narrow, std::size_t other) { this->Sets.unite(std::uint32_t(narrow), std::uint32_t(other)); }
+  void join(std::size_t narrow, std::size_t other) { this->Regions.unite(this->Regions.other(narrow), this->Regions.other(other)); }
 
-  static constexpr std::uint32_t Nowhere = 0xffffffffu;
+  static constexpr std::uint32_t Nowhere = BlockRegions::None;
 
 private:
-  void findParts(const NarrowOutside& narrow, Execution& execution);
-  std::uint32_t partOf(const LatticePoint& p) const;
-  void joinBlocks(Execution& execution);
-  void joinOctants(const LatticeLabels& labels, int width, Execution& execution);
-  void joinPoints(std::size_t block, std::uint64_t points, std::uint32_t set);
+  std::uint32_t numberOf(const LatticePoint& wide) const;
 
-  std::vector<std::uint64_t> Blocks;    ///< Morton codes, ascending
-  std::vector<std::uint32_t> FirstPart; ///< of each block, and the end
-  std::vector<std::uint64_t> Parts;     ///< points of a block that meet within it
-  std::uint32_t Before = 0;             ///< sets before those of the parts: the narrow points'
-  ConcurrentUnionFind Sets;
+  BlockRegions Regions;
 };
 
 } // namespace silhouette

@@ -22,7 +22,7 @@ double boxesAndRing(const LatticePoint& p)
 struct Scene
 {
   LabelledSolid solid{ 5, boxesAndRing };
-  LatticeRegions regions = connectRegions(*solid.labels, true, solid.execution);
+  SolidComponents components{ *solid.labels, solid.execution };
 
   std::uint32_t corner(const LatticePoint& p) const { return std::uint32_t(solid.labels->shell().find(mortonCode(p))); }
 };
@@ -37,8 +37,8 @@ TEST(CornerEffects, AreWhatLabellingTheCornerDoes)
     { { 20, 6, 6 }, CornerEffect::Founds }, { { 8, 18, 15 }, CornerEffect::Otherwise } };
   for (const auto& [p, expected] : cases)
   {
-    EXPECT_EQ(effects.of(scene.corner(p), scene.regions), expected) << p.i;
-    EXPECT_EQ(effects.of(scene.corner(p), scene.regions), expected) << "asked again";
+    EXPECT_EQ(effects.of(scene.corner(p), scene.components), expected) << p.i;
+    EXPECT_EQ(effects.of(scene.corner(p), scene.components), expected) << "asked again";
     EXPECT_EQ(effects.support(scene.corner(p)), scene.solid.labels->support()[scene.corner(p)]);
   }
 }
@@ -49,16 +49,20 @@ TEST(CornerEffects, FollowTheLabelsAndTheComponents)
   Scene scene;
   CornerEffects effects(*scene.solid.labels, nullptr);
   const std::uint32_t lone = scene.corner({ 20, 6, 6 }), beside = scene.corner({ 21, 6, 6 });
-  ASSERT_EQ(effects.of(beside, scene.regions), CornerEffect::Founds);
+  ASSERT_EQ(effects.of(beside, scene.components), CornerEffect::Founds);
   scene.solid.labels->setInside(lone);
   const auto around = effects.setInside(lone);
   EXPECT_EQ(around[14], std::ptrdiff_t(beside));
   EXPECT_EQ(around[13], -1);
-  EXPECT_EQ(effects.of(beside, scene.regions), CornerEffect::Nothing);
+  EXPECT_EQ(effects.of(beside, scene.components), CornerEffect::Nothing);
   const std::uint32_t between = scene.corner({ 9, 6, 6 });
-  ASSERT_EQ(effects.of(between, scene.regions), CornerEffect::Joins);
-  scene.regions.sets.unite(scene.corner({ 8, 6, 6 }), scene.corner({ 10, 6, 6 }));
-  EXPECT_EQ(effects.of(between, scene.regions), CornerEffect::Otherwise);
+  ASSERT_EQ(effects.of(between, scene.components), CornerEffect::Joins);
+  std::array<std::ptrdiff_t, 27> sides;
+  sides.fill(-1);
+  sides[12] = scene.corner({ 8, 6, 6 });
+  sides[14] = scene.corner({ 10, 6, 6 });
+  scene.components.add(between, sides);
+  EXPECT_EQ(effects.of(between, scene.components), CornerEffect::Otherwise);
 }
 
 /** Looking ahead changes no answer. */
@@ -82,7 +86,7 @@ TEST(CornerEffects, LookingAheadDecidesNothing)
   {
     if (!scene.solid.labels->inside()[c] && !scene.solid.octree.lattice.onBorder(fromMorton(shell.corners[c])))
     {
-      ASSERT_EQ(ahead.of(c, scene.regions), plain.of(c, scene.regions)) << c;
+      ASSERT_EQ(ahead.of(c, scene.components), plain.of(c, scene.components)) << c;
       ++asked;
     }
   }

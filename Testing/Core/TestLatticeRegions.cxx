@@ -93,18 +93,22 @@ TEST(LatticeRegions, SolidSurvivorsAndCavitiesAgreeWithFlooding)
     EXPECT_EQ(countSurvivorComponents(octree, execution),
       std::uint64_t(floodComponents(
         32, 3, [&](const LatticePoint& p) { return octree.locate(p).state != OctantState::Background; })));
-    LatticeRegions solid = connectRegions(labels, true, execution);
+    BlockRegions solid = connectRegions(labels, true, execution);
+    SolidComponents components(labels, execution);
+    std::set<std::uint32_t> ofCorners;
     std::set<std::uint32_t> roots;
     for (std::uint32_t c = 0; c < shell.corners.size(); ++c)
     {
       if (labels.inside()[c])
       {
-        roots.insert(solid.sets.find(c));
+        roots.insert(solid.find(solid.at(shell.corners[c])));
+        ofCorners.insert(components.of(c));
       }
     }
     const auto inside = [&](const LatticePoint& p) { return labels.insideAt(p); };
     const auto outside = [&](const LatticePoint& p) { return !labels.insideAt(p); };
     EXPECT_EQ(int(roots.size()), floodComponents(33, 2, inside));
+    EXPECT_EQ(ofCorners.size(), roots.size());
     const int cavities = floodComponents(33, 1, outside) - 1;
     EXPECT_EQ(fillCavities(labels, execution), std::uint64_t(cavities)) << "noise " << kind;
     EXPECT_EQ(floodComponents(33, 1, outside), 1);

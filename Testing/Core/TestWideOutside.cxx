@@ -26,7 +26,7 @@ TEST(WideOutside, MeetsAroundTheSolidAndNotThroughIt)
   {
     LabelledSolid solid(5, [&](const LatticePoint& p) { return hollowBox(p, open); });
     const NarrowOutside narrow(*solid.labels, 3, solid.execution);
-    WideOutside wide(*solid.labels, narrow, 3, solid.execution);
+    WideOutside wide(*solid.labels, narrow, solid.execution);
     const std::uint32_t within = wide.setOf(LatticePoint{ 10, 10, 10 });
     EXPECT_NE(within, WideOutside::Nowhere);
     EXPECT_EQ(wide.setOf(LatticePoint{ 19, 12, 15 }), within);
@@ -34,7 +34,8 @@ TEST(WideOutside, MeetsAroundTheSolidAndNotThroughIt)
     EXPECT_EQ(wide.setOf(LatticePoint{ 30, 15, 15 }), without);
     EXPECT_EQ(wide.setOf(LatticePoint{ 0, 0, 0 }), without);
     EXPECT_NE(within, without) << "the shaft is narrow";
-    EXPECT_EQ(wide.setOf(LatticePoint{ -1, 5, 5 }), WideOutside::Nowhere);
+    EXPECT_EQ(wide.setOf(LatticePoint{ -1, 5, 5 }), without) << "the world beyond";
+    EXPECT_EQ(wide.setOf(LatticePoint{ 6, 15, 15 }), WideOutside::Nowhere) << "the solid";
     ASSERT_EQ(narrow.points().empty(), !open);
     // A shaft that is taken from end to end joins what lies within and without.
     for (std::size_t n = 0; n < narrow.points().size(); ++n)

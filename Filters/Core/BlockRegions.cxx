@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BlockRegions.h"
+
+#include "Bits.h"
+#include "BlockBits.h"
+
+#include <algorithm>
+#include <array>
+
+namespace silhouette
+{
+namespace
+{
+
+constexpr int BlockHalvings = 2; ///< from a block to a cell
+
+/** The points of a block, and those one step before and behind on an axis. */
+std::uint64_t spread(std::uint64_t points, int axis)
+{
+  return points | fromAhead(points, 0, axis) | fromBehind(points, 0, axis);
+}
+
+/** The points of a block, and their neighbours in it. */
+std::uint64_t withNeighbours(std::uint64_t points, Steps steps)
+{
+  const std::uint64_t alongX = spread(points, 0), alongY = spread(points, 1);
+  switch (steps)
+  {
+    case Steps::Faces:
+      return alongX | alongY | spread(points, 2);
+    case Steps::Edges:
+      return spread(alongX, 1) | spread(alongX | alongY, 2);
+    default:
+      return spread(spread(alongX, 1), 2);
+  }
+}
+
+/** Those of `points` that meet the lowest of them. */
+std::uint64_t partOfLowest(std::uint64_t points, Steps steps)
+{
+  std::uint64_t part = points & (0 - points);
+  for (std::uint64_t before = 0; before != part;)
+  {
+    before = part;
+    part = withNeighbours(part, steps) & points;
+  }
+  return part;
+}
+
+} // namespace
+
+/** To one of the blocks around a block. */
+struct BlockRegions::Direction
+{
+  LatticePoint step;
+  int spreads = 0; ///< so many further coordinates of neighbours may differ
+  bool ahead = false; ///< every pair of blocks is met twice, once so
+
+  Direction(int n, Steps steps)
+    : step(neighbourOf({ 0, 0, 0 }, n))
+    , spreads(int(steps) - std::abs(this->step.i) - std::abs(this->step.j) - std::abs(this->step.k))
+    , ahead(n > 13)
+  {
+  }
+
+  /** Where the points of a block come to lie in the block in this direction, if they go one step. */
+  std::uint64_t moved(std::uint64_t points) const
+  {
+    const int steps[3] = { this->step.i, this->step.j, this->step.k };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      points = steps[axis] > 0 ? fromBehind(0, points, axis) : steps[axis] < 0 ? fromAhead(0, points, axis) : points;
+    }
+    return points;
+  }
+
+  /** All neighbours in that block. */
+  std::uint64_t reached(std::uint64_t points) const
+  {
+    const std::uint64_t there = this->moved(points);
+    if (this->spreads == 0 || there == 0)
+    {
+      return there;
+    }
+    const int steps[3] = { this->step.i, this->step.j, this->step.k };
+    std::uint64_t one = there, several = there; // of the coordinates that are left, and of as many as there are
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (steps[axis] == 0)
+      {
+        one |= spread(there, axis);
+        several = spread(several, axis);
+      }
+    }
+    return this->spreads == 1 ? one : several;
+  }
+};
+
+BlockRegions::BlockRegions(const Octree& octree, OctantState state, Steps steps, BlockIndex blocks, const std::vector<std::uint64_t>& members,
+  std::size_t others, Execution& execution)
+  : Source(&octree)
+  , LastGeneration(std::max(octree.lattice.depth - BlockHalvings, octree.treeGeneration - 1))
+  , WithBeyond(state == OctantState::Background)
+  , Blocks(std::move(blocks))
+{
+  this->findParts(steps, members, execution);
+  this->findOctants(state, execution);
+  this->Beyond = std::uint32_t(this->Parts.size() + this->IsMember.size());
+  this->Sets = ConcurrentUnionFind(this->Beyond + 1 + others, execution);
+  this->joinOctants(execution);
+  this->joinBlocks(steps, execution);
+}
+
+void BlockRegions::findParts(Steps steps, const std::vector<std::uint64_t>& members, Execution& execution)
+{
+  constexpr std::size_t RunSize = 1024;
+  std::vector<std::vector<std::uint64_t>> parts((members.size() + RunSize - 1) / RunSize); ///< of so many blocks each
+  std::vector<std::uint8_t> counts(members.size());
+  execution.forRanges(parts.size(), 1,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t block = first * RunSize; block < std::min(last * RunSize, members.size()); ++block)
+      {
+        for (std::uint64_t left = members[block]; left != 0; ++counts[block])
+        {
+          const std::uint64_t part = ~left == 0 ? left : partOfLowest(left, steps);
+          parts[block / RunSize].push_back(part);
+          left &= ~part;
+        }
+      }
+    });
+  for (const auto& some : parts)
+  {
+    this->Parts.insert(this->Parts.end(), some.begin(), some.end());
+  }
+  this->FirstPart.reserve(members.size() + 1);
+  this->FirstPart.push_back(0);
+  for (const std::uint8_t count : counts)
+  {
+    this->FirstPart.push_back(this->FirstPart.back() + count);
+  }
+}
+
+void BlockRegions::findOctants(OctantState state, Execution& execution)
+{
+  this->FirstOctant.assign(std::size_t(this->Source->treeGeneration) + 1, 0);
+  for (int g = this->Source->treeGeneration; g <= this->LastGeneration; ++g)
+  {
+    const Generation& generation = this->Source->generations[std::size_t(g)];
+    const std::size_t before = this->IsMember.size();
+    this->IsMember.resize(before + generation.size(), 0);
+    this->FirstOctant.push_back(this->IsMember.size());
+    const int halvings = this->Source->lattice.depth - BlockHalvings - g;
+    execution.forRanges(generation.size(), 1024,
+      [&, before](std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          const std::uint64_t low = generation.code[i] << 3 * halvings, high = (generation.code[i] + 1) << 3 * halvings;
+          this->IsMember[before + i] = generation.state[i] == state && this->Blocks.count(low, high) < high - low;
+        }
+      });
+  }
+}
+
+std::uint32_t BlockRegions::octant(int generation, std::size_t index) const
+{
+  if (generation < this->Source->treeGeneration || generation > this->LastGeneration)
+  {
+    return None;
+  }
+  const std::size_t place = this->FirstOctant[std::size_t(generation)] + index;
+  return this->IsMember[place] != 0 ? std::uint32_t(this->Parts.size() + place) : None;
+}
+
+/** Across faces. Every pair of neighbours is met from its smaller octant, those of one size from both. */
+void BlockRegions::joinOctants(Execution& execution)
+{
+  for (int g = this->Source->treeGeneration; g <= this->LastGeneration; ++g)
+  {
+    const Generation& generation = this->Source->generations[std::size_t(g)];
+    execution.forRanges(generation.size(), 1024,
+      [&, g](std::size_t first, std::size_t last)
+      {
+        OctantCursor cursor(*this->Source);
+        for (std::size_t i = first; i < last; ++i)
+        {
+          const std::uint32_t own = this->octant(g, i);
+          for (int side = 0; side < 6 && own != None; ++side)
+          {
+            std::uint64_t code = 0;
+            const bool exists = besideBlock(generation.code[i], side / 2, side % 2 != 0, code);
+            if (!exists || code >> 3 * g != 0)
+            {
+              if (this->WithBeyond)
+              {
+                this->Sets.unite(own, this->Beyond);
+              }
+              continue;
+            }
+            const auto beside = cursor.locate(code << 3 * (this->Source->lattice.depth - g));
+            const std::uint32_t other = beside.generation <= g ? this->octant(beside.generation, beside.index) : None;
+            if (other != None)
+            {
+              this->Sets.unite(own, other);
+            }
+          }
+        }
+      });
+  }
+}
+
+/** Join the parts of a block that hold any of these points to a number. */
+void BlockRegions::joinPoints(std::size_t block, std::uint64_t points, std::uint32_t number)
+{
+  for (std::uint32_t part = this->FirstPart[block]; points != 0 && part < this->FirstPart[block + 1]; ++part)
+  {
+    if ((this->Parts[part] & points) != 0)
+    {
+      this->Sets.unite(number, part);
+      points &= ~this->Parts[part];
+    }
+  }
+}
+
+void BlockRegions::joinInDirection(std::size_t block, const Direction& direction, OctantCursor& cursor)
+{
+  const std::uint32_t first = this->FirstPart[block], end = this->FirstPart[block + 1];
+  const std::uint64_t* parts = this->Parts.data();
+  if (std::all_of(parts + first, parts + end, [&](std::uint64_t part) { return direction.moved(part) == 0; }))
+  {
+    return;
+  }
+  const LatticePoint other = fromMorton(this->Blocks[block]) + direction.step;
+  const bool isBelow = std::min({ other.i, other.j, other.k }) < 0;
+  const std::ptrdiff_t place = isBelow ? -1 : this->Blocks.find(mortonCode(other));
+  if (place >= 0)
+  {
+    for (std::uint32_t part = first; direction.ahead && part < end; ++part)
+    {
+      this->joinPoints(std::size_t(place), direction.reached(this->Parts[part]), part);
+    }
+    return;
+  }
+  const std::int32_t blocks = std::max(this->Source->lattice.cells() >> BlockHalvings, std::int32_t(1));
+  std::uint32_t number = this->WithBeyond ? this->Beyond : None;
+  if (!isBelow && std::max({ other.i, other.j, other.k }) < blocks)
+  {
+    const auto location = cursor.locate(mortonCode(other) << 3 * BlockHalvings);
+    number = this->octant(location.generation, location.index);
+  }
+  for (std::uint32_t part = first; number != None && part < end; ++part)
+  {
+    if (direction.moved(this->Parts[part]) != 0)
+    {
+      this->Sets.unite(part, number);
+    }
+  }
+}
+
+void BlockRegions::joinBlocks(Steps steps, Execution& execution)
+{
+  std::vector<Direction> directions;
+  for (int n = 0; n < 27; ++n)
+  {
+    const Direction direction(n, steps);
+    if (n != 13 && direction.spreads >= 0)
+    {
+      directions.push_back(direction);
+    }
+  }
+  execution.forRanges(this->Blocks.size(), 512,
+    [&](std::size_t first, std::size_t last)
+    {
+      OctantCursor cursor(*this->Source);
+      for (std::size_t block = first; block < last; ++block)
+      {
+        if (this->FirstPart[block] == this->FirstPart[block + 1])
+        {
+          continue;
+        }
+        if (this->WithBeyond)
+        {
+          this->joinPoints(block, ~withinBorder(this->Source->lattice, this->Blocks[block]), this->Beyond);
+        }
+        for (const Direction& direction : directions)
+        {
+          this->joinInDirection(block, direction, cursor);
+        }
+      }
+    });
+}
+
+std::uint32_t BlockRegions::partAt(std::size_t block, int bit) const
+{
+  for (std::uint32_t part = this->FirstPart[block]; part < this->FirstPart[block + 1]; ++part)
+  {
+    if ((this->Parts[part] >> bit & 1) != 0)
+    {
+      return part;
+    }
+  }
+  return None;
+}
+
+std::uint32_t BlockRegions::at(std::uint64_t point) const
+{
+  const std::ptrdiff_t block = this->Blocks.find(point >> 6);
+  if (block >= 0)
+  {
+    return this->partAt(std::size_t(block), int(point & 63));
+  }
+  const LatticePoint p = fromMorton(point);
+  if (this->WithBeyond && this->Source->lattice.onBorder(p))
+  {
+    return this->Beyond;
+  }
+  const auto location = this->Source->locate(p);
+  return this->octant(location.generation, location.index);
+}
+
+std::vector<std::uint32_t> BlockRegions::numbersOf(const std::vector<std::uint64_t>& points, Execution& execution) const
+{
+  std::vector<std::uint32_t> numbers(points.size());
+  execution.forRanges(points.size(), 4096,
+    [&](std::size_t first, std::size_t last)
+    {
+      const auto& codes = this->Blocks.codes();
+      auto block = std::lower_bound(codes.begin(), codes.end(), points[first] >> 6);
+      for (std::size_t n = first; n < last; ++n)
+      {
+        while (block != codes.end() && *block < points[n] >> 6)
+        {
+          ++block;
+        }
+        numbers[n] = block != codes.end() && *block == points[n] >> 6
+          ? this->partAt(std::size_t(block - codes.begin()), int(points[n] & 63))
+          : this->at(points[n]);
+      }
+    });
+  return numbers;
+}
+
+std::size_t BlockRegions::count()
+{
+  std::size_t sets = 0;
+  for (std::uint32_t number = 0; number < this->Beyond; ++number)
+  {
+    const bool isMember = number < this->Parts.size() || this->IsMember[number - this->Parts.size()] != 0;
+    sets += isMember && this->find(number) == number;
+  }
+  return sets;
+}
+
+std::vector<std::uint64_t> subdividedBlocks(const Octree& octree)
+{
+  // The octants of the first generation whose octants are smaller: of each that is subdivided all eight are there.
+  const int g = std::max(octree.lattice.depth - BlockHalvings + 1, octree.treeGeneration);
+  const int halvings = g - (octree.lattice.depth - BlockHalvings);
+  std::vector<std::uint64_t> blocks;
+  for (const std::uint64_t code : octree.generations[std::size_t(g)].code)
+  {
+    if (blocks.empty() || blocks.back() != code >> 3 * halvings)
+    {
+      blocks.push_back(code >> 3 * halvings);
+    }
+  }
+  return blocks;
+}
+
+} // namespace silhouette
