@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "Execution.h"
 #include "Mesh.h"
 
 namespace silhouette
@@ -14,5 +15,7 @@ namespace silhouette
  * the message gives triangle or point. Cost: one pass.
  */
 void checkMesh(const Mesh& mesh);
+/** The same, side by side. */
+void checkMesh(const Mesh& mesh, Execution& execution);
 
 } // namespace silhouette

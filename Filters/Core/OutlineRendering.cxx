@@ -3,6 +3,7 @@
 
 #include "Bits.h"
 #include "BoxTree.h"
+#include "EdgePairing.h"
 #include "Error.h"
 #include "MeshCheck.h"
 #include "SilhouetteRendering.h"
@@ -11,7 +12,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <mutex>
@@ -211,96 +211,6 @@ std::vector<std::uint64_t> facedByTriangles(const Mesh& mesh, const Facing& faci
   return faced;
 }
 
-/**
- * Call `worker(from, to, forwards, backwards)` for each edge, perhaps side by side, each range of them by a worker that `makeWorker` makes: the triangle
- * that goes along it to its later point, and the one that goes back; the number of triangles for none. Of an edge's two directions the one to the later point is remembered; by its earlier point the other
- * direction finds it. Where more than two triangles meet, who is whose partner is left open: what an edge adds to the windings is what its triangles add
- * one by one.
- */
-template <typename MakeWorker>
-void forEdges(const Mesh& mesh, Execution& execution, const MakeWorker& makeWorker)
-{
-  struct Direction
-  {
-    std::int32_t to;
-    std::uint32_t triangle;
-  };
-  const auto none = std::uint32_t(mesh.triangles.size());
-  const auto forDirections = [&](bool forwards, const auto& makeVisit)
-  {
-    execution.forRanges(mesh.triangles.size(), Grain,
-      [&](std::size_t first, std::size_t last)
-      {
-        auto visit = makeVisit();
-        for (std::size_t n = first; n < last; ++n)
-        {
-          for (int c = 0; c < 3; ++c)
-          {
-            const std::int32_t a = mesh.triangles[n][c], b = mesh.triangles[n][(c + 1) % 3];
-            if ((a < b) == forwards)
-            {
-              visit(std::min(a, b), std::max(a, b), std::uint32_t(n));
-            }
-          }
-        }
-      });
-  };
-  std::vector<std::atomic<std::uint32_t>> next(mesh.points.size() + 1);
-  forDirections(true,
-    [&]
-    {
-      return [&](std::int32_t from, std::int32_t, std::uint32_t)
-      { next[std::size_t(from)].fetch_add(1, std::memory_order_relaxed); };
-    });
-  std::vector<std::uint32_t> start(next.size());
-  std::uint32_t count = 0;
-  for (std::size_t p = 0; p < next.size(); ++p)
-  {
-    start[p] = count;
-    count += next[p].load(std::memory_order_relaxed);
-    next[p].store(start[p], std::memory_order_relaxed);
-  }
-  std::vector<Direction> directions(count);
-  forDirections(true,
-    [&]
-    {
-      return [&](std::int32_t from, std::int32_t to, std::uint32_t triangle)
-      { directions[next[std::size_t(from)].fetch_add(1, std::memory_order_relaxed)] = { to, triangle }; };
-    });
-  std::vector<std::atomic<std::uint8_t>> hasPartner(count);
-  forDirections(false,
-    [&]
-    {
-      return [&, worker = makeWorker()](std::int32_t from, std::int32_t to, std::uint32_t triangle) mutable
-      {
-        for (std::uint32_t n = start[std::size_t(from)]; n < start[std::size_t(from) + 1]; ++n)
-        {
-          if (directions[n].to == to && hasPartner[n].exchange(1, std::memory_order_relaxed) == 0)
-          {
-            worker(from, to, directions[n].triangle, triangle);
-            return;
-          }
-        }
-        worker(from, to, none, triangle);
-      };
-    });
-  execution.forRanges(mesh.points.size(), Grain,
-    [&](std::size_t first, std::size_t last)
-    {
-      auto worker = makeWorker();
-      for (std::size_t from = first; from < last; ++from)
-      {
-        for (std::uint32_t n = start[from]; n < start[from + 1]; ++n)
-        {
-          if (hasPartner[n].load(std::memory_order_relaxed) == 0)
-          {
-            worker(std::int32_t(from), directions[n].to, directions[n].triangle, none);
-          }
-        }
-      }
-    });
-}
-
 /** Which edges are outlines, for each of some cameras. They come in any order: windings are sums of whole numbers. */
 struct OutlineCollection
 {
@@ -369,7 +279,7 @@ OutlineRenderer::OutlineRenderer(const Mesh& mesh, std::vector<ImageCamera> came
   , InFront(this->Cameras.size(), 1)
   , Outlines(this->Cameras.size())
 {
-  checkMesh(mesh);
+  checkMesh(mesh, execution);
   this->requireProjectable();
   for (std::size_t first = 0; first < this->Cameras.size(); first += MostTogether)
   {

@@ -15,17 +15,26 @@ using namespace silhouette::test;
 namespace
 {
 
-std::string messageOf(const Mesh& mesh)
+template <typename Check> std::string thrownBy(const Check& check)
 {
   try
   {
-    checkMesh(mesh);
+    check();
   }
   catch (const InvalidInput& error)
   {
     return error.what();
   }
   return "";
+}
+
+/** On one thread, and side by side. */
+std::string messageOf(const Mesh& mesh)
+{
+  ThreadedExecution three(3);
+  const std::string message = thrownBy([&] { checkMesh(mesh); });
+  EXPECT_EQ(thrownBy([&] { checkMesh(mesh, three); }), message);
+  return message;
 }
 
 } // namespace
