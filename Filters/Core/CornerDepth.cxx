@@ -71,14 +71,16 @@ double nearestObject(const PreparedView& view, double u, double v, double most)
 
 } // namespace
 
-CornerDepth::CornerDepth(const LatticeViews& views, int backgroundVotes, double reach)
+CornerDepth::CornerDepth(const Octree& octree, const LatticeViews& views, double reach)
   : Views(&views)
-  , BackgroundVotes(backgroundVotes)
+  , Undecided(octree, views)
+  , Depth(octree.lattice.depth)
+  , BackgroundVotes(octree.backgroundVotes)
   , Reach(reach)
 {
-  if (backgroundVotes < 0 || backgroundVotes >= views.size())
+  if (this->BackgroundVotes < 0 || this->BackgroundVotes >= views.size())
   {
-    throw InvalidInput("background votes " + std::to_string(backgroundVotes) + ": 0 to " + std::to_string(views.size() - 1) +
+    throw InvalidInput("background votes " + std::to_string(this->BackgroundVotes) + ": 0 to " + std::to_string(views.size() - 1) +
       " are possible with " + std::to_string(views.size()) + " views");
   }
   if (!(reach > 0.0))
@@ -87,16 +89,32 @@ CornerDepth::CornerDepth(const LatticeViews& views, int backgroundVotes, double 
   }
 }
 
-double CornerDepth::operator()(const LatticePoint& p) const
+/** All of them, unless the others are known to call the corner object or to say nothing of it. */
+ViewsToAsk CornerDepth::viewsAround(const LatticePoint& p, OctantCursor& octants) const
 {
-  std::vector<double> outside;
-  for (int view = 0; view < this->Views->size(); ++view)
+  for (int n = 0; n < 8 && this->BackgroundVotes == 0 && this->Undecided.isKnown(); ++n)
   {
-    if (this->Views->vote(view, p) == Vote::Background)
+    const LatticePoint o = cornerOffset(n);
+    const auto octant = octants.locate(LatticePoint{ p.i - o.i, p.j - o.j, p.k - o.k });
+    if (octant.generation == this->Depth && octant.state == OctantState::Intersection)
     {
-      outside.push_back(this->outsideView(view, p));
+      return this->Undecided[octant.index];
     }
   }
+  return this->Undecided.all();
+}
+
+double CornerDepth::operator()(const LatticePoint& p, OctantCursor& octants) const
+{
+  std::vector<double> outside;
+  this->viewsAround(p, octants).forEach(
+    [&](int view)
+    {
+      if (this->Views->vote(view, p) == Vote::Background)
+      {
+        outside.push_back(this->outsideView(view, p));
+      }
+    });
   if (int(outside.size()) <= this->BackgroundVotes)
   {
     return 0.0;

@@ -5,7 +5,7 @@
  */
 #pragma once
 
-#include "PreparedViews.h"
+#include "CornerVotes.h"
 
 namespace silhouette
 {
@@ -14,24 +14,26 @@ class CornerDepth
 {
 public:
   /**
-   * `views` is not copied and has to outlive this. `backgroundVotes` is k: so many views are not listened to at
-   * each corner. Depths are cut off at `reach` octants. Throws InvalidInput for k outside 0 to views - 1 and
-   * for a reach that is not above 0.
+   * Octree and views are not copied and have to outlive this. As many views as the octree allows background votes, k, are not listened to at each corner.
+   * Depths are cut off at `reach` octants. Throws InvalidInput for a reach that is not above 0, and where there are not more than k views.
    */
-  CornerDepth(const LatticeViews& views, int backgroundVotes, double reach);
+  CornerDepth(const Octree& octree, const LatticeViews& views, double reach);
 
   /**
-   * Depth of a corner in octants: 0 inside and where no view says anything, else minus the distance to the
-   * silhouette in the view that is farthest from it, but for the k farthest; pixels are squares, -reach at
-   * least. Cost: a vote of each view; for the views that call the corner background, a few questions for each
-   * row of pixels nearer than the silhouette.
+   * Depth of a corner in octants: 0 inside and where no view says anything, else minus the distance to the silhouette in the view that is farthest
+   * from it, but for the k farthest; pixels are squares, -reach at least. `octants`: the octree's; not for several threads at once. Cost: a vote of each
+   * view, where k is 0 and the corner is a surviving octant's of those that are undecided about it; for the views that call the corner background, a few
+   * questions for each row of pixels nearer than the silhouette.
    */
-  double operator()(const LatticePoint& p) const;
+  double operator()(const LatticePoint& p, OctantCursor& octants) const;
 
 private:
   double outsideView(int view, const LatticePoint& p) const;
+  ViewsToAsk viewsAround(const LatticePoint& p, OctantCursor& octants) const;
 
   const LatticeViews* Views;
+  LeafViews Undecided;
+  int Depth; ///< of the octree
   int BackgroundVotes;
   double Reach;
 };

@@ -21,12 +21,7 @@ enum : std::uint8_t
 
 TopologicalNumbers numbersAt(const LatticePoint& p, LabelCache& cache)
 {
-  Neighbourhood labels;
-  for (int n = 0; n < 27; ++n)
-  {
-    labels[n] = n != 13 && cache.insideAt(neighbourOf(p, n));
-  }
-  return topologicalNumbers(labels);
+  return topologicalNumbers(cache.insideAround(p));
 }
 
 /** The effect as far as it is a matter of the labels around a corner. */
@@ -45,6 +40,7 @@ CornerEffects::CornerEffects(const LatticeLabels& labels, const CornerDepth* dep
   , Depth(depth)
   , Cache(labels)
   , Corners(labels.shell().corners)
+  , Octants(labels.octree())
   , Supports(depth ? labels.shell().corners.size() : 0, Unknown)
   , Effects(labels.shell().corners.size(), NotAsked)
 {
@@ -74,7 +70,7 @@ float CornerEffects::support(std::uint32_t corner)
   float& known = this->Supports[corner];
   if (known == Unknown)
   {
-    known = this->depthOf(corner);
+    known = this->depthOf(corner, this->Octants);
   }
   return known;
 }
@@ -151,9 +147,10 @@ void CornerEffects::lookAhead(const std::vector<std::uint32_t>& cells, Execution
   execution.forRanges(equals.size(), 16,
     [&](std::size_t first, std::size_t last)
     {
+      OctantCursor octants(this->Labels.octree());
       for (std::size_t n = first; n < last; ++n)
       {
-        this->Supports[equals[n]] = this->depthOf(equals[n]);
+        this->Supports[equals[n]] = this->depthOf(equals[n], octants);
       }
     });
 }

@@ -49,7 +49,7 @@ public:
 
 private:
   LatticePoint point(std::uint32_t corner) const { return fromMorton(this->Labels.shell().corners[corner]); }
-  float depthOf(std::uint32_t corner) const { return float((*this->Depth)(this->point(corner))); }
+  float depthOf(std::uint32_t corner, OctantCursor& octants) const { return float((*this->Depth)(this->point(corner), octants)); }
   std::vector<std::uint32_t> cornersToAsk(const std::vector<std::uint32_t>& cells);
   std::vector<std::uint32_t> equalCorners(const std::vector<std::uint32_t>& cells) const;
   bool distinctComponents(const LatticePoint& p, const TopologicalNumbers& numbers, SolidComponents& solid);
@@ -58,6 +58,7 @@ private:
   const CornerDepth* Depth;
   LabelCache Cache;
   CodeCursor Corners;
+  OctantCursor Octants;
   std::vector<float> Supports;       ///< by Depth, of each corner of the shell that it was asked for
   std::vector<std::uint8_t> Effects; ///< of each corner, as long as no label around it changes
 };

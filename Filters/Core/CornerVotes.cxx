@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CornerVotes.h"
 
+#include "FirstTouch.h"
 #include "LeastNumbers.h"
 
 #include <algorithm>
@@ -9,18 +10,23 @@
 namespace silhouette
 {
 
-CellViews::CellViews(
-  const Octree& octree, const CornerShell& shell, const LatticeViews& views, Execution& execution)
-  : Source(&octree)
+LeafViews::LeafViews(const Octree& octree, const LatticeViews& views)
+  : Source(octree.undecided.first.empty() || octree.fingerprint != views.prepared().fingerprint() ? nullptr : &octree)
   , All(std::size_t(views.size()))
 {
   std::iota(this->All.begin(), this->All.end(), std::uint16_t(0));
-  if (octree.undecided.first.empty() || octree.fingerprint != views.prepared().fingerprint())
+}
+
+CellViews::CellViews(
+  const Octree& octree, const CornerShell& shell, const LatticeViews& views, Execution& execution)
+  : Views(octree, views)
+{
+  if (!this->Views.isKnown())
   {
     return;
   }
   const Generation& parents = octree.generations[std::size_t(octree.lattice.depth) - 1];
-  this->Parents.resize(shell.cells.size());
+  resizeSideBySide(this->Leaves, shell.cells.size(), execution);
   execution.forRanges(shell.cells.size(), 4096,
     [&](std::size_t first, std::size_t last)
     {
@@ -33,16 +39,8 @@ CellViews::CellViews(
           ++at;
         }
         const auto parent = std::size_t(at - parents.code.begin());
-        if (at != parents.code.end() && *at == code && parents.state[parent] == OctantState::Intersection)
-        {
-          const std::uint32_t rank = parents.childBlock[parent];
-          // Where nobody else is known to see the cell, those that look away from it must not go unheard.
-          // Of a carved octant the views after the one that carved it were not asked.
-          const std::size_t octant = 8 * std::size_t(rank) + (shell.cells[cell] & 7);
-          const bool choose = octree.undecided.seen[rank] != 0 && octree.backgroundVotes == 0 &&
-            octree.last().state[octant] != OctantState::Background;
-          this->Parents[cell] = { rank, choose ? octree.undecided.among[octant] : std::uint16_t(0xffff) };
-        }
+        const bool isThere = at != parents.code.end() && *at == code && parents.state[parent] == OctantState::Intersection;
+        this->Leaves[cell] = isThere ? std::uint32_t(8 * std::size_t(parents.childBlock[parent]) + (shell.cells[cell] & 7)) : Unknown;
       }
     });
 }

@@ -11,38 +11,50 @@
 namespace silhouette
 {
 
+/** Whom to ask about the octants of the last generation. Octree and views have to outlive it. */
+class LeafViews
+{
+public:
+  /** Where the octree was carved from other views than these, or does not know any more, all of them are asked. */
+  LeafViews(const Octree& octree, const LatticeViews& views);
+
+  bool isKnown() const { return this->Source != nullptr; }
+  ViewsToAsk all() const { return { this->All.data(), this->All.size(), 0, false }; }
+  /** Of an octant, by its index, if it is known. */
+  ViewsToAsk operator[](std::size_t leaf) const
+  {
+    const UndecidedViews& undecided = this->Source->undecided;
+    const std::size_t parent = leaf / 8, first = undecided.first[parent];
+    // Where nobody else is known to see the octant, those that look away from it must not go unheard. Of a carved one the views after the one that
+    // carved it were not asked.
+    const bool choose = undecided.seen[parent] != 0 && this->Source->backgroundVotes == 0 &&
+      this->Source->last().state[leaf] != OctantState::Background;
+    return { undecided.views.data() + first, undecided.first[parent + 1] - first, undecided.backgroundVotes[parent], undecided.seen[parent] != 0,
+      choose ? undecided.among[leaf] : std::uint16_t(0xffff) };
+  }
+
+private:
+  const Octree* Source; ///< or nothing
+  std::vector<std::uint16_t> All;
+};
+
 /** Whom to ask about each cell of a shell. Octree, shell and views have to outlive it. */
 class CellViews
 {
 public:
-  /** Where the octree was carved from other views than these, or does not know any more, all of them are asked. */
   CellViews(const Octree& octree, const CornerShell& shell, const LatticeViews& views, Execution& execution);
 
   ViewsToAsk operator[](std::size_t cell) const
   {
-    const std::uint32_t parent = this->Parents.empty() ? Unknown : this->Parents[cell].rank;
-    if (parent == Unknown)
-    {
-      return { this->All.data(), this->All.size(), 0, false };
-    }
-    const UndecidedViews& undecided = this->Source->undecided;
-    const std::size_t first = undecided.first[parent];
-    return { undecided.views.data() + first, undecided.first[parent + 1] - first, undecided.backgroundVotes[parent],
-      undecided.seen[parent] != 0, this->Parents[cell].among };
+    const std::uint32_t leaf = this->Leaves.empty() ? Unknown : this->Leaves[cell];
+    return leaf == Unknown ? this->Views.all() : this->Views[leaf];
   }
 
 private:
   static constexpr std::uint32_t Unknown = 0xffffffffu;
 
-  struct Parent
-  {
-    std::uint32_t rank = Unknown;  ///< among the intersection octants
-    std::uint16_t among = 0xffff; ///< which of its views need be asked about the cell
-  };
-
-  const Octree* Source;
-  std::vector<std::uint16_t> All;
-  std::vector<Parent> Parents; ///< of each cell; or nothing
+  LeafViews Views;
+  std::vector<std::uint32_t> Leaves; ///< of each cell its octant of the last generation; or nothing
 };
 
 /**

@@ -240,7 +240,7 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
   }
   if (views && !labels.field())
   {
-    depth.emplace(*latticeViews, labels.octree().backgroundVotes, CoverReach);
+    depth.emplace(labels.octree(), *latticeViews, CoverReach);
   }
   CoveringResult covering = coverSurvivors(
     labels, survivors.bridges, loopSteps(labels.octree().lattice, options.handles), depth ? &*depth : nullptr, execution);

@@ -5,7 +5,6 @@
 #include "Lattice.h"
 #include "MarchingCubesTable.h"
 
-#include <cstdlib>
 
 namespace silhouette
 {
@@ -14,52 +13,35 @@ namespace
 
 constexpr int Centre = 13;
 
-/** Number of coordinates in which two of the 27 points differ, or 4 where they are no 26-neighbours. */
-int distance(int a, int b)
-{
-  const LatticePoint p = neighbourOf({}, a), q = neighbourOf({}, b);
-  const int dx = std::abs(p.i - q.i), dy = std::abs(p.j - q.j), dz = std::abs(p.k - q.k);
-  return dx > 1 || dy > 1 || dz > 1 ? 4 : dx + dy + dz;
-}
-
 /** Sets of the 27 points, a bit each. */
 using Members = std::uint32_t;
 
-/** For each step and point: the points that differ from it in at most so many coordinates, each by one. */
-struct Within
-{
-  std::array<std::array<Members, 27>, 4> of{};
-  Within()
-  {
-    for (int step = 1; step <= 3; ++step)
-    {
-      for (int a = 0; a < 27; ++a)
-      {
-        for (int b = 0; b < 27; ++b)
-        {
-          this->of[step][a] |= Members(distance(a, b) <= step) << b;
-        }
-      }
-    }
-  }
-};
+constexpr Members All = (Members(1) << 27) - 1;
 
-const std::array<Members, 27>& within(int step)
+/** The points whose coordinate on an axis is `value`, 0 to 2. */
+constexpr Members layer(int stride, int value)
 {
-  static const Within table;
-  return table.of[step];
+  Members points = 0;
+  for (int n = 0; n < 27; ++n)
+  {
+    points |= Members(n / stride % 3 == value) << n;
+  }
+  return points;
 }
 
-/** Points within `step` of one of `from`. */
-Members reach(Members from, int step)
+/** Points and those one step before and behind on an axis; the points of an axis follow one another by a stride of 1, 3 or 9. */
+template <int Stride> constexpr Members spread(Members points)
 {
-  const auto& near = within(step);
-  Members reached = 0;
-  for (; from != 0; from &= from - 1)
-  {
-    reached |= near[lowestBit(from)];
-  }
-  return reached;
+  return points | (points & ~layer(Stride, 2)) << Stride | (points & ~layer(Stride, 0)) >> Stride;
+}
+
+/** Points that differ from one of `from` in at most `step` coordinates, each by one. */
+constexpr Members reach(Members from, int step)
+{
+  const Members alongX = spread<1>(from), alongY = spread<3>(from);
+  return step == 1 ? alongX | alongY | spread<9>(from)
+    : step == 2    ? spread<3>(alongX) | spread<9>(alongX | alongY)
+                   : spread<9>(spread<3>(alongX));
 }
 
 /** Points of `from` and those of `among` that are within `step` of one of them. */
@@ -71,7 +53,7 @@ Members grow(Members from, Members among, int step)
 /** Those of `members`, the centre left out, that are within `step` of the centre. */
 Members around(Members members, int step)
 {
-  return members & within(step)[Centre] & ~(Members(1) << Centre);
+  return members & reach(Members(1) << Centre, step) & ~(Members(1) << Centre);
 }
 
 /** Number the components of `members`, points within `step` of each other being joined, from the first point on. */
@@ -98,12 +80,8 @@ int components(Members members, int step, const Name& name)
 TopologicalNumbers topologicalNumbers(const Neighbourhood& labels)
 {
   TopologicalNumbers numbers;
-  Members solid = 0;
-  for (int n = 0; n < 27; ++n)
-  {
-    solid |= Members(labels[n]) << n;
-  }
-  const Members hollow = ~solid & ((Members(1) << 27) - 1);
+  const auto solid = Members(labels.to_ulong());
+  const Members hollow = ~solid & All;
   // Inside: the geodesic 18-neighbourhood of order 2.
   numbers.insideComponent.fill(-1);
   numbers.inside = components(grow(around(solid, 2), around(solid, 3), 2), 2,

@@ -8,13 +8,14 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 
 namespace silhouette
 {
 
 /** Labels of the 27 lattice points around a corner: index (dx + 1) + 3 (dy + 1) + 9 (dz + 1), true is inside. */
-using Neighbourhood = std::array<bool, 27>;
+using Neighbourhood = std::bitset<27>;
 
 /** What labelling the centre inside would do. */
 struct TopologicalNumbers

@@ -60,17 +60,20 @@ TEST(CornerDepth, IsTheDistanceToTheNearestObjectPixelInTheFarthestView)
     auto captured = viewsOf(torusMesh(48, 24, 0.75, 0.2), swayingRing(7, 60), 60);
     disturb(captured, kind, random);
     const PreparedViews prepared = prepareViews(captured);
-    const Lattice lattice{ unitCube(), 4 };
-    const LatticeViews views(prepared, lattice);
+    const LatticeViews views(prepared, Lattice{ unitCube(), 4 });
     int between = 0;
     for (const int votes : { 0, 1, 3 })
     {
-      const CornerDepth depth(views, votes, 3.0);
-      for (int n = 0; n < 120; ++n)
+      const Octree octree = carveViews(prepared, unitCube(), 4, votes);
+      const CornerDepth depth(octree, views, 3.0);
+      OctantCursor octants(octree);
+      const auto leaves = leafCells(octree, OctantState::Intersection);
+      for (int n = 0; n < 240; ++n)
       {
-        const LatticePoint p{ int(random.below(17)), int(random.below(17)), int(random.below(17)) };
+        const LatticePoint of = fromMorton(leaves[std::size_t(random.below(int(leaves.size())))]) + cornerOffset(random.below(8));
+        const LatticePoint p = n % 2 ? of : LatticePoint{ int(random.below(17)), int(random.below(17)), int(random.below(17)) };
         const double expected = depthByBruteForce(views, p, votes, 3.0);
-        EXPECT_NEAR(depth(p), expected, 1e-12) << kind << " " << votes << " " << p.i << " " << p.j << " " << p.k;
+        EXPECT_NEAR(depth(p, octants), expected, 1e-12) << kind << " " << votes << " " << p.i << " " << p.j << " " << p.k;
         between += expected < 0.0 && expected > -3.0;
       }
     }
@@ -82,8 +85,12 @@ TEST(CornerDepth, RefusesWhatIsOutOfRange)
 {
   const PreparedViews prepared = prepareViews(viewsOf(torusMesh(12, 6, 0.75, 0.2), swayingRing(3, 20), 20));
   const LatticeViews views(prepared, Lattice{ unitCube(), 3 });
-  EXPECT_THROW(CornerDepth(views, 3, 1.0), InvalidInput);
-  EXPECT_THROW(CornerDepth(views, -1, 1.0), InvalidInput);
-  EXPECT_THROW(CornerDepth(views, 0, 0.0), InvalidInput);
-  EXPECT_THROW(CornerDepth(views, 0, std::nan("")), InvalidInput);
+  Octree octree = carveViews(prepared, unitCube(), 3, 0);
+  EXPECT_THROW(CornerDepth(octree, views, 0.0), InvalidInput);
+  EXPECT_THROW(CornerDepth(octree, views, std::nan("")), InvalidInput);
+  for (const int votes : { 3, -1 })
+  {
+    octree.backgroundVotes = votes;
+    EXPECT_THROW(CornerDepth(octree, views, 1.0), InvalidInput);
+  }
 }

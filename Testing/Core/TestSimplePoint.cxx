@@ -52,9 +52,9 @@ TEST(SimplePoint, SimpleCornersChangeNoTopologyOfTheSurface)
   {
     Neighbourhood labels{};
     const double share = random.uniform();
-    for (auto&& label : labels)
+    for (std::size_t n = 0; n < labels.size(); ++n)
     {
-      label = random.uniform() < share;
+      labels[n] = random.uniform() < share;
     }
     labels[13] = false;
     const bool same = topology(labels, false) == topology(labels, true);
@@ -119,9 +119,9 @@ TEST(SimplePoint, InsideComponentsAreThoseOfTheirDefinition)
   {
     Neighbourhood labels{}, members{};
     const double share = random.uniform(0.05, 0.6);
-    for (auto&& label : labels)
+    for (std::size_t n = 0; n < labels.size(); ++n)
     {
-      label = random.uniform() < share;
+      labels[n] = random.uniform() < share;
     }
     const auto coordinates = [](int n) { return std::array<int, 3>{ n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1 }; };
     const auto fromCentre = [&](int n)
@@ -154,7 +154,7 @@ TEST(SimplePoint, KnowsTheTextbookCases)
   EXPECT_TRUE(isSimple(topologicalNumbers(labels)));
   labels[14] = true; // and the one at +x: a bridge
   EXPECT_EQ(topologicalNumbers(labels).inside, 2);
-  labels.fill(true);
+  labels.set();
   EXPECT_EQ(topologicalNumbers(labels).outside, 0) << "the last point of a cavity";
   labels = {};
   labels[0] = true; // opposite end of a cube's diagonal: not joined
