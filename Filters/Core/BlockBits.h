@@ -116,11 +116,4 @@ inline std::uint64_t withinBorder(const Lattice& lattice, std::uint64_t block)
   return within;
 }
 
-/** Place of a block among some, ascending, or -1. */
-inline std::ptrdiff_t findBlock(const std::vector<std::uint64_t>& blocks, std::uint64_t block)
-{
-  const auto at = std::lower_bound(blocks.begin(), blocks.end(), block);
-  return at != blocks.end() && *at == block ? at - blocks.begin() : -1;
-}
-
 } // namespace silhouette

@@ -5,7 +5,8 @@
 #include "BlockBits.h"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
+#include <cstdlib>
 
 namespace silhouette
 {
@@ -54,12 +55,10 @@ struct BlockRegions::Direction
 {
   LatticePoint step;
   int spreads = 0; ///< so many further coordinates of neighbours may differ
-  bool ahead = false; ///< every pair of blocks is met twice, once so
 
   Direction(int n, Steps steps)
     : step(neighbourOf({ 0, 0, 0 }, n))
     , spreads(int(steps) - std::abs(this->step.i) - std::abs(this->step.j) - std::abs(this->step.k))
-    , ahead(n > 13)
   {
   }
 
@@ -223,33 +222,54 @@ void BlockRegions::joinPoints(std::size_t block, std::uint64_t points, std::uint
   }
 }
 
-void BlockRegions::joinInDirection(std::size_t block, const Direction& direction, OctantCursor& cursor)
+/** The Morton codes of the blocks around one. */
+class BlockRegions::CodesAround
 {
-  const std::uint32_t first = this->FirstPart[block], end = this->FirstPart[block + 1];
-  const std::uint64_t* parts = this->Parts.data();
-  if (std::all_of(parts + first, parts + end, [&](std::uint64_t part) { return direction.moved(part) == 0; }))
+public:
+  CodesAround(std::uint64_t block, std::int32_t blocks)
   {
-    return;
-  }
-  const LatticePoint other = fromMorton(this->Blocks[block]) + direction.step;
-  const bool isBelow = std::min({ other.i, other.j, other.k }) < 0;
-  const std::ptrdiff_t place = isBelow ? -1 : this->Blocks.find(mortonCode(other));
-  if (place >= 0)
-  {
-    for (std::uint32_t part = first; direction.ahead && part < end; ++part)
+    const LatticePoint p = fromMorton(block);
+    const std::int32_t coordinates[3] = { p.i, p.j, p.k };
+    for (int axis = 0; axis < 3; ++axis)
     {
-      this->joinPoints(std::size_t(place), direction.reached(this->Parts[part]), part);
+      for (int step = 0; step < 3; ++step)
+      {
+        const std::int32_t x = coordinates[axis] + step - 1;
+        this->Codes[axis][step] = spreadBits(std::uint64_t(std::max(x, 0))) << axis;
+        this->IsBelow[axis][step] = x < 0;
+        this->IsOfCells[axis][step] = x >= 0 && x < blocks;
+      }
     }
-    return;
   }
-  const std::int32_t blocks = std::max(this->Source->lattice.cells() >> BlockHalvings, std::int32_t(1));
-  std::uint32_t number = this->WithBeyond ? this->Beyond : None;
-  if (!isBelow && std::max({ other.i, other.j, other.k }) < blocks)
+
+  std::uint64_t operator[](const LatticePoint& step) const
   {
-    const auto location = cursor.locate(mortonCode(other) << 3 * BlockHalvings);
+    return this->Codes[0][step.i + 1] | this->Codes[1][step.j + 1] | this->Codes[2][step.k + 1];
+  }
+  /** Is a coordinate negative? */
+  bool isBelow(const LatticePoint& step) const { return this->IsBelow[0][step.i + 1] || this->IsBelow[1][step.j + 1] || this->IsBelow[2][step.k + 1]; }
+  /** Are there cells in that block? */
+  bool isOfCells(const LatticePoint& step) const
+  {
+    return this->IsOfCells[0][step.i + 1] && this->IsOfCells[1][step.j + 1] && this->IsOfCells[2][step.k + 1];
+  }
+
+private:
+  std::uint64_t Codes[3][3];
+  bool IsBelow[3][3];
+  bool IsOfCells[3][3];
+};
+
+/** Join a block's parts to what lies in a direction where there is no block. */
+void BlockRegions::joinElsewhere(std::size_t block, const CodesAround& around, const Direction& direction, OctantCursor& cursor)
+{
+  std::uint32_t number = this->WithBeyond ? this->Beyond : None;
+  if (around.isOfCells(direction.step))
+  {
+    const auto location = cursor.locate(around[direction.step] << 3 * BlockHalvings);
     number = this->octant(location.generation, location.index);
   }
-  for (std::uint32_t part = first; number != None && part < end; ++part)
+  for (std::uint32_t part = this->FirstPart[block]; number != None && part < this->FirstPart[block + 1]; ++part)
   {
     if (direction.moved(this->Parts[part]) != 0)
     {
@@ -258,34 +278,79 @@ void BlockRegions::joinInDirection(std::size_t block, const Direction& direction
   }
 }
 
+/**
+ * Of two blocks the first looks for the second, and joins the two; whom it has found is marked, so that the second looks for nobody there.
+ */
 void BlockRegions::joinBlocks(Steps steps, Execution& execution)
 {
-  std::vector<Direction> directions;
+  std::vector<Direction> ahead, behind;
   for (int n = 0; n < 27; ++n)
   {
     const Direction direction(n, steps);
     if (n != 13 && direction.spreads >= 0)
     {
-      directions.push_back(direction);
+      (n > 13 ? ahead : behind).push_back(direction);
     }
   }
-  execution.forRanges(this->Blocks.size(), 512,
-    [&](std::size_t first, std::size_t last)
-    {
-      OctantCursor cursor(*this->Source);
-      for (std::size_t block = first; block < last; ++block)
+  std::vector<std::atomic<std::uint16_t>> marked(this->Blocks.size()); // a bit for each direction behind
+  const std::int32_t blocks = std::max(this->Source->lattice.cells() >> BlockHalvings, std::int32_t(1));
+  const auto forBlocks = [&](const auto& work)
+  {
+    execution.forRanges(this->Blocks.size(), 512,
+      [&](std::size_t first, std::size_t last)
       {
-        if (this->FirstPart[block] == this->FirstPart[block + 1])
+        OctantCursor cursor(*this->Source);
+        for (std::size_t block = first; block < last; ++block)
+        {
+          std::uint64_t members = 0;
+          for (std::uint32_t part = this->FirstPart[block]; part < this->FirstPart[block + 1]; ++part)
+          {
+            members |= this->Parts[part];
+          }
+          if (members != 0)
+          {
+            work(block, members, CodesAround(this->Blocks[block], blocks), cursor);
+          }
+        }
+      });
+  };
+  forBlocks(
+    [&](std::size_t block, std::uint64_t members, const CodesAround& around, OctantCursor& cursor)
+    {
+      if (this->WithBeyond)
+      {
+        this->joinPoints(block, ~withinBorder(this->Source->lattice, this->Blocks[block]), this->Beyond);
+      }
+      for (std::size_t d = 0; d < ahead.size(); ++d)
+      {
+        if (ahead[d].moved(members) == 0)
         {
           continue;
         }
-        if (this->WithBeyond)
+        const std::ptrdiff_t other = around.isBelow(ahead[d].step) ? -1 : this->Blocks.find(around[ahead[d].step]);
+        if (other < 0)
         {
-          this->joinPoints(block, ~withinBorder(this->Source->lattice, this->Blocks[block]), this->Beyond);
+          this->joinElsewhere(block, around, ahead[d], cursor);
+          continue;
         }
-        for (const Direction& direction : directions)
+        // The directions behind are those ahead, the last first.
+        marked[std::size_t(other)].fetch_or(std::uint16_t(1u << (ahead.size() - 1 - d)), std::memory_order_relaxed);
+        for (std::uint32_t part = this->FirstPart[block]; part < this->FirstPart[block + 1]; ++part)
         {
-          this->joinInDirection(block, direction, cursor);
+          this->joinPoints(std::size_t(other), ahead[d].reached(this->Parts[part]), part);
+        }
+      }
+    });
+  forBlocks(
+    [&](std::size_t block, std::uint64_t members, const CodesAround& around, OctantCursor& cursor)
+    {
+      const unsigned found = marked[block].load(std::memory_order_relaxed);
+      for (std::size_t d = 0; d < behind.size(); ++d)
+      {
+        if ((found >> d & 1) == 0 && behind[d].moved(members) != 0 &&
+          (around.isBelow(behind[d].step) || this->Blocks.find(around[behind[d].step]) < 0))
+        {
+          this->joinElsewhere(block, around, behind[d], cursor);
         }
       }
     });

@@ -2,6 +2,7 @@
 #include "IntersectionAround.h"
 
 #include "BlockBits.h"
+#include "BlockIndex.h"
 
 #include <array>
 
@@ -13,30 +14,32 @@ namespace
 /** Cells by blocks of 4 x 4 x 4. */
 struct CellBlocks
 {
-  std::vector<std::uint64_t> codes; ///< ascending
+  BlockIndex blocks;
   std::vector<std::uint64_t> cells; ///< of each, a bit each
 
   explicit CellBlocks(const Octree& octree)
   {
     const Generation& leaves = octree.last();
+    std::vector<std::uint64_t> codes;
     for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
     {
       if (leaves.state[leaf] == OctantState::Intersection)
       {
         const std::uint64_t code = leaves.code[leaf];
-        if (this->codes.empty() || this->codes.back() != code >> 6)
+        if (codes.empty() || codes.back() != code >> 6)
         {
-          this->codes.push_back(code >> 6);
+          codes.push_back(code >> 6);
           this->cells.push_back(0);
         }
         this->cells.back() |= std::uint64_t(1) << (code & 63);
       }
     }
+    this->blocks = BlockIndex(std::move(codes));
   }
 
   std::uint64_t of(std::uint64_t block) const
   {
-    const std::ptrdiff_t at = findBlock(this->codes, block);
+    const std::ptrdiff_t at = this->blocks.find(block);
     return at < 0 ? 0 : this->cells[std::size_t(at)];
   }
 };

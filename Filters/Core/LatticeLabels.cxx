@@ -4,11 +4,13 @@
 #include "Bits.h"
 #include "BlockBits.h"
 #include "CornerVotes.h"
+#include "FirstTouch.h"
 #include "MarchingCubesTable.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <atomic>
 #include <deque>
 #include <tuple>
 
@@ -68,6 +70,36 @@ std::vector<Eigen::Vector3d> pointNormals(const Mesh& surface)
   return normals;
 }
 
+struct LocatedPoint
+{
+  LatticeCrossing crossing{ NoEdge, 0.0 };
+  std::uint8_t lowerInside = 0;
+  bool operator<(const LocatedPoint& b) const
+  {
+    return std::tie(this->crossing.edge, this->crossing.fraction, this->lowerInside) <
+      std::tie(b.crossing.edge, b.crossing.fraction, b.lowerInside);
+  }
+};
+
+/** Are they all on edges, ascending, no edge twice? */
+bool areInOrder(const std::vector<LocatedPoint>& points, Execution& execution)
+{
+  std::atomic<bool> inOrder{ points.empty() || points.front().crossing.edge != NoEdge };
+  execution.forRanges(points.size(), 4096,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t n = std::max<std::size_t>(first, 1); n < last; ++n)
+      {
+        if (points[n].crossing.edge == NoEdge || points[n].crossing.edge <= points[n - 1].crossing.edge)
+        {
+          inOrder = false;
+          return;
+        }
+      }
+    });
+  return inOrder;
+}
+
 } // namespace
 
 std::ptrdiff_t SurfaceCrossings::find(std::uint64_t edge) const
@@ -79,18 +111,9 @@ std::ptrdiff_t SurfaceCrossings::find(std::uint64_t edge) const
 
 SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice, CrossingSides sides, Execution& execution)
 {
-  struct Located
-  {
-    LatticeCrossing crossing{ NoEdge, 0.0 };
-    std::uint8_t lowerInside = 0;
-    bool operator<(const Located& b) const
-    {
-      return std::tie(this->crossing.edge, this->crossing.fraction, this->lowerInside) <
-        std::tie(b.crossing.edge, b.crossing.fraction, b.lowerInside);
-    }
-  };
   const std::vector<Eigen::Vector3d> normals = sides == CrossingSides::Located ? pointNormals(surface) : std::vector<Eigen::Vector3d>();
-  std::vector<Located> all(surface.points.size());
+  std::vector<LocatedPoint> all;
+  resizeSideBySide(all, surface.points.size(), execution);
   execution.forRanges(all.size(), 4096,
     [&](std::size_t first, std::size_t last)
     {
@@ -102,14 +125,29 @@ SurfaceCrossings locateCrossings(const Mesh& surface, const Lattice& lattice, Cr
         }
       }
     });
-  if (!std::is_sorted(all.begin(), all.end())) // a surface made on this lattice is
-  {
-    std::sort(all.begin(), all.end());
-  }
   SurfaceCrossings found;
+  if (areInOrder(all, execution)) // as those of a surface made on this lattice are
+  {
+    resizeSideBySide(found.crossings, all.size(), execution);
+    found.lowerInside.resize(normals.empty() ? 0 : all.size());
+    execution.forRanges(all.size(), 4096,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t n = first; n < last; ++n)
+        {
+          found.crossings[n] = all[n].crossing;
+          if (!normals.empty())
+          {
+            found.lowerInside[n] = all[n].lowerInside;
+          }
+        }
+      });
+    return found;
+  }
+  std::sort(all.begin(), all.end());
   found.crossings.reserve(all.size());
   // Several points may lie on one edge of a strange surface: the first by position counts.
-  for (const Located& one : all)
+  for (const LocatedPoint& one : all)
   {
     found.ignoredPoints += one.crossing.edge == NoEdge;
     if (one.crossing.edge != NoEdge && (found.crossings.empty() || found.crossings.back().edge != one.crossing.edge))
@@ -136,26 +174,31 @@ LatticeLabels::LatticeLabels(
   : TheOctree(&octree)
   , Shell(std::move(shell))
 {
-  this->labelByVotes(shellVotes(octree, this->Shell, LatticeViews(views, octree.lattice), execution));
+  this->labelByVotes(shellVotes(octree, this->Shell, LatticeViews(views, octree.lattice), execution), execution);
 }
 
-LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint16_t>& votes)
+LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint16_t>& votes, Execution& execution)
   : TheOctree(&octree)
   , Shell(std::move(shell))
 {
-  this->labelByVotes(votes);
+  this->labelByVotes(votes, execution);
 }
 
-void LatticeLabels::labelByVotes(const std::vector<std::uint16_t>& votes)
+void LatticeLabels::labelByVotes(const std::vector<std::uint16_t>& votes, Execution& execution)
 {
   this->setSurvivors(leafCells(*this->TheOctree, OctantState::Intersection));
-  this->Support.assign(votes.begin(), votes.end());
-  this->Inside.resize(votes.size());
   const int required = this->TheOctree->viewCount - this->TheOctree->backgroundVotes;
-  for (std::size_t c = 0; c < votes.size(); ++c)
-  {
-    this->Inside[c] = votes[c] >= required && !this->TheOctree->lattice.onBorder(fromMorton(this->Shell.corners[c]));
-  }
+  resizeSideBySide(this->Support, votes.size(), execution);
+  resizeSideBySide(this->Inside, votes.size(), execution);
+  execution.forRanges(votes.size(), 4096,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        this->Support[c] = votes[c];
+        this->Inside[c] = votes[c] >= required && !this->TheOctree->lattice.onBorder(fromMorton(this->Shell.corners[c]));
+      }
+    });
 }
 
 LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const SurfaceCrossings& crossings)
@@ -241,6 +284,11 @@ void LatticeLabels::spread(const SurfaceCrossings& crossings)
 
 void LatticeLabels::setSurvivors(const std::vector<std::uint64_t>& cells)
 {
+  if (cells == this->Shell.cells) // mostly
+  {
+    this->Survivor.assign(cells.size(), 1);
+    return;
+  }
   this->Survivor.assign(this->Shell.cells.size(), 0);
   auto next = cells.begin();
   for (std::size_t cell = 0; cell < this->Shell.cells.size(); ++cell)

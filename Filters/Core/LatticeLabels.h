@@ -62,7 +62,7 @@ public:
   /** Labels by votes: inside iff at most the octree's k views say background, not on the root cube's border. */
   LatticeLabels(const Octree& octree, CornerShell shell, const PreparedViews& views, Execution& execution);
   /** The same by votes that are known: those of the shell's corners, by the octree's views. */
-  LatticeLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint16_t>& votes);
+  LatticeLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint16_t>& votes, Execution& execution);
   /**
    * Labels without views: corners of inside octants are inside, those of background octants outside; the rest by
    * the surface's crossings, and where an edge has none its ends are alike. What stays unknown is outside.
@@ -118,7 +118,7 @@ private:
   std::uint64_t insideOfBlock(std::uint64_t block, Corner& corner, OctantCursor& octants) const;
   std::uint64_t unlabelledOfBlock(std::uint64_t block, OctantCursor& octants) const;
   bool isInside(const Octree::Location& octant) const;
-  void labelByVotes(const std::vector<std::uint16_t>& votes);
+  void labelByVotes(const std::vector<std::uint16_t>& votes, Execution& execution);
   void fromOctree();
   void spread(const SurfaceCrossings& crossings);
 

@@ -138,6 +138,7 @@ SolidComponents::SolidComponents(const LatticeLabels& labels, Execution& executi
 {
   BlockRegions regions = connectRegions(labels, true, execution);
   this->Numbers = regions.numbersOf(labels.shell().corners, execution);
+  this->Count = regions.count();
   this->Sets = UnionFind(regions.size());
   for (std::uint32_t number = 0; number < regions.size(); ++number)
   {
@@ -153,13 +154,18 @@ void SolidComponents::add(std::uint32_t corner, const std::array<std::ptrdiff_t,
     const LatticePoint step = neighbourOf({ 0, 0, 0 }, n);
     const bool isNeighbour = n != 13 && std::abs(step.i) + std::abs(step.j) + std::abs(step.k) <= int(Steps::Edges);
     const std::uint32_t other = isNeighbour && around[std::size_t(n)] >= 0 ? this->Numbers[std::size_t(around[std::size_t(n)])] : BlockRegions::None;
-    if (other != BlockRegions::None && own != BlockRegions::None)
+    if (other != BlockRegions::None && own != BlockRegions::None && this->Sets.find(own) != this->Sets.find(other))
     {
       this->Sets.unite(own, other);
+      --this->Count;
     }
     own = own == BlockRegions::None ? other : own;
   }
-  own = own == BlockRegions::None ? this->Sets.add() : own;
+  if (own == BlockRegions::None)
+  {
+    own = this->Sets.add();
+    ++this->Count;
+  }
 }
 
 std::uint64_t fillCavities(LatticeLabels& labels, Execution& execution)

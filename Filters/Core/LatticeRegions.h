@@ -27,6 +27,8 @@ class SolidComponents
 public:
   SolidComponents(const LatticeLabels& labels, Execution& execution);
 
+  /** Is there but one? */
+  bool isOne() const { return this->Count == 1; }
   /** Stands for the component of an inside corner. */
   std::uint32_t of(std::uint32_t corner) { return this->Sets.find(this->Numbers[corner]); }
   /** A corner is inside now; `around`: the corners of its 26 neighbours by neighbourOf(), -1 where there is none. */
@@ -35,6 +37,7 @@ public:
 private:
   std::vector<std::uint32_t> Numbers; ///< of each corner; BlockRegions::None for those outside
   UnionFind Sets;
+  std::size_t Count = 0; ///< of components
 };
 
 /** Label the cavities, outside regions that do not reach the world beyond, inside; returns their number. */

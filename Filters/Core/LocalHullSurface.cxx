@@ -3,6 +3,7 @@
 
 #include "CellSafety.h"
 #include "CrossingPlacer.h"
+#include "IndicesWhere.h"
 #include "LatticeRegions.h"
 #include "LatticeSurface.h"
 #include "MeshComponents.h"
@@ -129,33 +130,35 @@ struct ThinParts
   std::vector<std::uint32_t> cells;
   std::vector<std::uint64_t> corners; ///< covering ones, ascending
 
-  ThinParts(const LatticeLabels& labels, const CoveringResult& covering, const std::vector<std::uint64_t>& added)
+  ThinParts(const LatticeLabels& labels, const CoveringResult& covering, const std::vector<std::uint64_t>& added, Execution& execution)
   {
-    for (const std::uint32_t cell : covering.coveredCells)
+    const CornerShell& shell = labels.shell();
+    const auto& covered = covering.coveredCells;
+    for (const std::int32_t n : indicesWhere(covered.size(), 256, execution, [&](std::size_t one) { return isThin(labels, added, covered[one]); }))
     {
-      const LatticePoint p = fromMorton(labels.shell().cells[cell]);
-      bool thin = true;
-      for (int n = 0; n < 64 && thin; ++n)
+      this->cells.push_back(covered[std::size_t(n)]);
+      for (const std::uint32_t corner : shell.cellCorners[this->cells.back()])
       {
-        const LatticePoint q{ p.i + n % 4 - 1, p.j + n / 4 % 4 - 1, p.k + n / 16 - 1 };
-        thin = labels.octree().lattice.onBorder(q) || !labels.insideAt(q) ||
-          std::binary_search(added.begin(), added.end(), mortonCode(q));
-      }
-      if (thin)
-      {
-        this->cells.push_back(cell);
-        for (const std::uint32_t corner : labels.shell().cellCorners[cell])
+        if (std::binary_search(added.begin(), added.end(), shell.corners[corner]))
         {
-          const std::uint64_t code = labels.shell().corners[corner];
-          if (std::binary_search(added.begin(), added.end(), code))
-          {
-            this->corners.push_back(code);
-          }
+          this->corners.push_back(shell.corners[corner]);
         }
       }
     }
-    std::sort(this->corners.begin(), this->corners.end());
-    this->corners.erase(std::unique(this->corners.begin(), this->corners.end()), this->corners.end());
+    sortUnique(this->corners);
+  }
+
+private:
+  static bool isThin(const LatticeLabels& labels, const std::vector<std::uint64_t>& added, std::uint32_t cell)
+  {
+    const LatticePoint p = fromMorton(labels.shell().cells[cell]);
+    bool thin = true;
+    for (int n = 0; n < 64 && thin; ++n)
+    {
+      const LatticePoint q{ p.i + n % 4 - 1, p.j + n / 4 % 4 - 1, p.k + n / 16 - 1 };
+      thin = labels.octree().lattice.onBorder(q) || !labels.insideAt(q) || std::binary_search(added.begin(), added.end(), mortonCode(q));
+    }
+    return thin;
   }
 };
 
@@ -209,7 +212,7 @@ void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const 
   {
     return;
   }
-  const ThinParts thin(labels, covering, added);
+  const ThinParts thin(labels, covering, added, execution);
   if (!thin.cells.empty())
   {
     Phase measuring(execution, 0.5, 0.6);
@@ -324,9 +327,9 @@ LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& carved, cons
     shell = intersectionShell(*kept, execution);
   }
   const Octree& octree = kept ? *kept : carved;
-  const Survivors survivors(octree, std::move(shell), options.bridgeGap, execution);
+  Survivors survivors(octree, std::move(shell), options.bridgeGap, execution);
   survivors.count(surface);
-  LatticeLabels labels = correctedLabels(octree, survivors.shell, survivors.bridgePoints, views, capture, execution);
+  LatticeLabels labels = correctedLabels(octree, std::move(survivors.shell), survivors.bridgePoints, views, capture, execution);
   execution.checkpoint(0.6);
   const SurfaceCrossings crossings =
     locateCrossings(capture.surface ? *capture.surface : imperfect, octree.lattice, CrossingSides::NotLocated, execution);

@@ -3,6 +3,7 @@
 
 #include "Bits.h"
 #include "BlockBits.h"
+#include "PointBlocks.h"
 
 #include <algorithm>
 
@@ -39,26 +40,18 @@ std::vector<std::uint64_t> mixedBlocks(const LatticeLabels& labels)
  * All blocks with points within `width` octants of a cell of the given blocks. From an outside point elsewhere no cell with corners of both labels is
  * within a cube's reach: there it is wide.
  */
-std::vector<std::uint64_t> blocksNear(std::vector<std::uint64_t> blocks, int width)
+std::vector<std::uint64_t> blocksNear(const std::vector<std::uint64_t>& blocks, int width)
 {
   const int reach = 1 + width / BlockSide;
+  PointBlocks near(blocks);
   for (int axis = 0; axis < 3; ++axis)
   {
-    const std::size_t count = blocks.size();
-    for (std::size_t b = 0; b < count; ++b)
+    for (int step = 0; step < reach; ++step)
     {
-      for (const bool ahead : { true, false })
-      {
-        std::uint64_t block = blocks[b];
-        for (int step = 0; step < reach && besideBlock(block, axis, ahead, block); ++step)
-        {
-          blocks.push_back(block);
-        }
-      }
+      near = near.spread(axis);
     }
-    sortUnique(blocks);
   }
-  return blocks;
+  return near.points();
 }
 
 } // namespace
@@ -122,8 +115,10 @@ std::vector<std::uint32_t> NarrowOutside::blocksBeside(int axis, bool ahead, Exe
 void NarrowOutside::findPoints(const std::vector<std::uint64_t>& opened)
 {
   this->Narrow.resize(this->Blocks.size());
+  this->FirstPoint.resize(this->Blocks.size());
   for (std::size_t b = 0; b < this->Blocks.size(); ++b)
   {
+    this->FirstPoint[b] = std::uint32_t(this->Points.size());
     this->Narrow[b] = this->Free[b] & ~opened[b];
     for (std::uint64_t left = this->Narrow[b]; left != 0; left &= left - 1)
     {
@@ -132,25 +127,33 @@ void NarrowOutside::findPoints(const std::vector<std::uint64_t>& opened)
   }
 }
 
-std::ptrdiff_t NarrowOutside::find(const LatticePoint& p) const
+std::ptrdiff_t NarrowCursor::find(const LatticePoint& p) const
 {
-  return std::min({ p.i, p.j, p.k }) < 0 ? -1 : findBlock(this->Points, mortonCode(p));
+  if (std::min({ p.i, p.j, p.k }) < 0)
+  {
+    return -1;
+  }
+  const std::uint64_t code = mortonCode(p), bit = std::uint64_t(1) << (code & 63);
+  const std::ptrdiff_t block = this->placeOf(code >> 6);
+  const std::uint64_t narrow = block < 0 ? 0 : this->Outside->Narrow[std::size_t(block)];
+  return (narrow & bit) == 0 ? -1 : std::ptrdiff_t(this->Outside->FirstPoint[std::size_t(block)]) + countBits(narrow & (bit - 1));
 }
 
-NarrowOutside::Label NarrowOutside::at(const LatticePoint& p) const
+NarrowOutside::Label NarrowCursor::at(const LatticePoint& p) const
 {
+  using Label = NarrowOutside::Label;
   if (std::min({ p.i, p.j, p.k }) < 0)
   {
     return Label::Wide;
   }
   const std::uint64_t code = mortonCode(p);
-  const std::ptrdiff_t block = this->Blocks.find(code >> 6);
+  const std::ptrdiff_t block = this->placeOf(code >> 6);
   if (block < 0)
   {
-    return this->Labels->insideAt(p) ? Label::Solid : Label::Wide;
+    return this->Outside->Labels->insideAt(p) ? Label::Solid : Label::Wide;
   }
   const auto has = [&](const std::vector<std::uint64_t>& bits) { return (bits[std::size_t(block)] >> (code & 63) & 1) != 0; };
-  return !has(this->Free) ? Label::Solid : has(this->Narrow) ? Label::Narrow : Label::Wide;
+  return !has(this->Outside->Free) ? Label::Solid : has(this->Outside->Narrow) ? Label::Narrow : Label::Wide;
 }
 
 std::vector<std::uint64_t> NarrowOutside::wideOfBlocks(const std::vector<std::uint64_t>& blocks, Execution& execution) const

@@ -7,6 +7,7 @@
 #include "BlockIndex.h"
 #include "LatticeLabels.h"
 
+#include <array>
 #include <vector>
 
 namespace silhouette
@@ -32,17 +33,14 @@ public:
 
   /** Morton codes of the narrow points, ascending. */
   const std::vector<std::uint64_t>& points() const { return this->Points; }
-  /** Index of a narrow point, or -1. Its coordinates may lie outside the lattice. */
-  std::ptrdiff_t find(const LatticePoint& p) const;
-  /** Of any lattice point. */
-  Label at(const LatticePoint& p) const;
   /** Morton codes, ascending, of the blocks of 4 x 4 x 4 points outside of which no point is narrow. */
   const std::vector<std::uint64_t>& blocks() const { return this->Blocks.codes(); }
   /** The wide points of many blocks, ascending: of each a bit each, the lowest for the point of Morton code 64 `block`. */
   std::vector<std::uint64_t> wideOfBlocks(const std::vector<std::uint64_t>& blocks, Execution& execution) const;
 
 private:
-  void fill(Execution& execution);
+  friend class NarrowCursor;
+
   void openByCubes(int width, Execution& execution);
   std::vector<std::uint32_t> blocksBeside(int axis, bool ahead, Execution& execution) const;
   void findPoints(const std::vector<std::uint64_t>& opened);
@@ -51,7 +49,43 @@ private:
   BlockIndex Blocks;
   std::vector<std::uint64_t> Free;   ///< of each, its outside points
   std::vector<std::uint64_t> Narrow; ///< of these, the narrow ones
+  std::vector<std::uint32_t> FirstPoint; ///< of each block, the number of the first of its narrow points
   std::vector<std::uint64_t> Points;
+};
+
+/**
+ * Asks about points near one another: the blocks found last are remembered, eight, as many as meet in a point. Not for several threads at once. What it
+ * asks has to outlive it. Cost: finding each block that is not remembered.
+ */
+class NarrowCursor
+{
+public:
+  explicit NarrowCursor(const NarrowOutside& outside)
+    : Outside(&outside)
+  {
+    this->Blocks.fill(~std::uint64_t(0));
+  }
+
+  /** Of any lattice point. */
+  NarrowOutside::Label at(const LatticePoint& p) const;
+  /** Index of a narrow point, or -1. Its coordinates may lie outside the lattice. */
+  std::ptrdiff_t find(const LatticePoint& p) const;
+
+private:
+  std::ptrdiff_t placeOf(std::uint64_t block) const
+  {
+    const std::size_t slot = block % this->Blocks.size(); // the oddness of its coordinates: neighbours have other slots
+    if (this->Blocks[slot] != block)
+    {
+      this->Blocks[slot] = block;
+      this->Places[slot] = this->Outside->Blocks.find(block);
+    }
+    return this->Places[slot];
+  }
+
+  const NarrowOutside* Outside;
+  mutable std::array<std::uint64_t, 8> Blocks;
+  mutable std::array<std::ptrdiff_t, 8> Places{};
 };
 
 } // namespace silhouette

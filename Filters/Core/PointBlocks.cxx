@@ -54,47 +54,78 @@ std::vector<std::uint64_t> PointBlocks::points() const
   return points;
 }
 
-PointBlocks PointBlocks::beside(const Lattice& lattice) const
+/** Of parts of blocks the first of which are ascending, no code twice; the others are sorted. */
+PointBlocks PointBlocks::joined(std::vector<Block> within, std::vector<Block>& beyond)
 {
-  std::vector<Block> parts;
-  const auto add = [&](std::uint64_t code, std::uint64_t points)
-  {
-    if (points != 0)
-    {
-      parts.push_back({ code, points });
-    }
-  };
-  for (const Block& block : this->Blocks)
-  {
-    std::uint64_t within = 0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      within |= fromAhead(block.points, 0, axis) | fromBehind(block.points, 0, axis);
-      std::uint64_t other = 0;
-      besideBlock(block.code, axis, true, other);
-      add(other, fromBehind(0, block.points, axis));
-      if (besideBlock(block.code, axis, false, other))
-      {
-        add(other, fromAhead(0, block.points, axis));
-      }
-    }
-    add(block.code, within);
-  }
-  std::sort(parts.begin(), parts.end(), [](const Block& a, const Block& b) { return a.code < b.code; });
+  std::sort(beyond.begin(), beyond.end(), [](const Block& a, const Block& b) { return a.code < b.code; });
   PointBlocks result;
-  for (std::size_t n = 0; n < parts.size();)
+  for (auto own = within.begin(), other = beyond.begin(); own != within.end() || other != beyond.end();)
   {
-    Block block{ parts[n].code, 0 };
-    for (; n < parts.size() && parts[n].code == block.code; ++n)
+    const std::uint64_t code = other == beyond.end() || (own != within.end() && own->code < other->code) ? own->code : other->code;
+    Block block{ code, 0 };
+    if (own != within.end() && own->code == code)
     {
-      block.points |= parts[n].points;
+      block.points = (own++)->points;
     }
-    block.points &= ofLattice(lattice, block.code);
+    for (; other != beyond.end() && other->code == code; ++other)
+    {
+      block.points |= other->points;
+    }
     if (block.points != 0)
     {
       result.Blocks.push_back(block);
     }
   }
+  return result;
+}
+
+PointBlocks PointBlocks::spread(int axis) const
+{
+  std::vector<Block> within = this->Blocks, beyond;
+  for (Block& block : within)
+  {
+    const std::uint64_t points = block.points;
+    std::uint64_t other = 0;
+    block.points |= fromAhead(points, 0, axis) | fromBehind(points, 0, axis);
+    for (const bool ahead : { true, false })
+    {
+      const std::uint64_t there = ahead ? fromBehind(0, points, axis) : fromAhead(0, points, axis);
+      if (there != 0 && besideBlock(block.code, axis, ahead, other))
+      {
+        beyond.push_back({ other, there });
+      }
+    }
+  }
+  return joined(std::move(within), beyond);
+}
+
+PointBlocks PointBlocks::beside(const Lattice& lattice) const
+{
+  std::vector<Block> within = this->Blocks, beyond;
+  for (Block& block : within)
+  {
+    const std::uint64_t points = block.points;
+    block.points = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      block.points |= fromAhead(points, 0, axis) | fromBehind(points, 0, axis);
+      for (const bool ahead : { true, false })
+      {
+        const std::uint64_t there = ahead ? fromBehind(0, points, axis) : fromAhead(0, points, axis);
+        std::uint64_t other = 0;
+        if (there != 0 && besideBlock(block.code, axis, ahead, other))
+        {
+          beyond.push_back({ other, there });
+        }
+      }
+    }
+  }
+  PointBlocks result = joined(std::move(within), beyond);
+  for (Block& block : result.Blocks)
+  {
+    block.points &= ofLattice(lattice, block.code);
+  }
+  result.dropEmpty();
   return result;
 }
 
@@ -112,6 +143,11 @@ void PointBlocks::remove(const PointBlocks& other)
       block.points &= ~at->points;
     }
   }
+  this->dropEmpty();
+}
+
+void PointBlocks::dropEmpty()
+{
   this->Blocks.erase(std::remove_if(this->Blocks.begin(), this->Blocks.end(), [](const Block& b) { return b.points == 0; }),
     this->Blocks.end());
 }

@@ -24,6 +24,8 @@ public:
   std::vector<std::uint64_t> points() const;
   /** The lattice's points one step along a lattice edge from one of these, among them such as are in this set. Cost: n log n in the blocks. */
   PointBlocks beside(const Lattice& lattice) const;
+  /** These points and those one step before and behind on an axis, none of which is negative. Cost: as beside(). */
+  PointBlocks spread(int axis) const;
   /** Take the other set's points out. Cost: linear in the blocks. */
   void remove(const PointBlocks& other);
 
@@ -33,6 +35,9 @@ private:
     std::uint64_t code;
     std::uint64_t points; ///< a bit each, not none
   };
+
+  void dropEmpty();
+  static PointBlocks joined(std::vector<Block> within, std::vector<Block>& beyond);
 
   std::vector<Block> Blocks; ///< ascending
 };

@@ -223,7 +223,7 @@ CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, con
   return capture;
 }
 
-LatticeLabels correctedLabels(const Octree& octree, const CornerShell& shell, const std::vector<std::uint64_t>& points,
+LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint64_t>& points,
   const PreparedViews& views, const CorrectedCapture& capture, Execution& execution)
 {
   const Octree& base = capture.recarved ? *capture.recarved : octree;
@@ -232,11 +232,12 @@ LatticeLabels correctedLabels(const Octree& octree, const CornerShell& shell, co
   {
     if (points.empty() && capture.votes.size() == shell.corners.size())
     {
-      return LatticeLabels(octree, shell, capture.votes);
+      return LatticeLabels(octree, std::move(shell), capture.votes, execution);
     }
-    return makeLabels(octree, points.empty() ? shell : extendedShell(shell, points, execution), views, capture, execution);
+    return makeLabels(octree, points.empty() ? std::move(shell) : extendedShell(shell, points, execution), views, capture, execution);
   }
-  CornerShell wide = shell;
+  std::vector<std::uint64_t> survivors = shell.cells;
+  CornerShell wide = std::move(shell);
   if (capture.recarved)
   {
     const auto more = leafCells(base, OctantState::Intersection);
@@ -250,7 +251,6 @@ LatticeLabels correctedLabels(const Octree& octree, const CornerShell& shell, co
     }
   }
   wide = extendedShell(wide, points, execution);
-  std::vector<std::uint64_t> survivors = shell.cells;
   LatticeLabels labels = makeLabels(base, wide, used, capture, execution);
   const auto disowned = disownedOctants(octree, labels);
   if (!disowned.empty())

@@ -33,7 +33,7 @@ CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, con
  * passes. What of the corrected surface holds no survivor is left out. Where its bricks end, the capture's field has to say what the octree
  * says, as correctCapture() makes it: no surface leaves them but through intersection octants.
  */
-LatticeLabels correctedLabels(const Octree& octree, const CornerShell& shell, const std::vector<std::uint64_t>& points,
+LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint64_t>& points,
   const PreparedViews& views, const CorrectedCapture& capture, Execution& execution);
 
 /** Does the shell hold the eight cells around each of the given points? */

@@ -2,6 +2,7 @@
 #include "SurvivorCovering.h"
 
 #include "CornerEffects.h"
+#include "IndicesWhere.h"
 #include "LatticeRegions.h"
 #include "ShellPaths.h"
 #include "SomeCells.h"
@@ -44,10 +45,10 @@ public:
 
   CoveringResult run(const std::vector<Bridge>& bridges, Execution& execution)
   {
-    this->findLost();
+    this->findLost(execution);
     this->Effects.lookAhead(this->Lost, execution);
     this->coverAll();
-    this->joinWithinCells();
+    this->joinWithinCells(execution);
     this->joinAcrossCorners();
     this->build(bridges);
     return this->Result;
@@ -64,15 +65,11 @@ private:
     return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return this->inside(c); });
   }
 
-  void findLost()
+  void findLost(Execution& execution)
   {
-    for (std::uint32_t cell = 0; cell < this->shell().cells.size(); ++cell)
-    {
-      if (this->Labels.isSurvivor(cell) && !this->covered(cell))
-      {
-        this->Lost.push_back(cell);
-      }
-    }
+    const auto lost = indicesWhere(this->shell().cells.size(), 4096, execution,
+      [&](std::size_t cell) { return this->Labels.isSurvivor(cell) && !this->covered(std::uint32_t(cell)); });
+    this->Lost.assign(lost.begin(), lost.end());
     this->Result.coveredCells = this->Lost;
   }
 
@@ -208,20 +205,32 @@ private:
     }
   }
 
-  /** The inside corners of a cell belong to one component, unless there are two, opposite ends of its diagonal. */
-  void joinWithin(std::uint32_t cell)
+  /** Are two corners of a cell inside, opposite ends of its diagonal? In no other cell are inside corners apart. */
+  bool hasDiagonal(std::uint32_t cell) const
   {
     const auto& corners = this->shell().cellCorners[cell];
     std::array<int, 8> inside;
     int count = 0;
     for (int c = 0; c < 8 && count < 3; ++c)
     {
-      inside[count] = c;
-      count += this->inside(corners[c]);
+      inside[std::size_t(count)] = c;
+      count += this->inside(corners[std::size_t(c)]);
     }
-    if (count == 2 && inside[0] + inside[1] == 7 && this->component(corners[inside[0]]) != this->component(corners[inside[1]]))
+    return count == 2 && inside[0] + inside[1] == 7;
+  }
+
+  /** The inside corners of a cell belong to one component then. */
+  void joinWithin(std::uint32_t cell)
+  {
+    if (this->hasDiagonal(cell))
     {
-      this->addUnsettled(this->best(cell).corner);
+      std::array<std::uint32_t, 2> ends;
+      const auto& corners = this->shell().cellCorners[cell];
+      std::copy_if(corners.begin(), corners.end(), ends.begin(), [&](std::uint32_t corner) { return this->inside(corner); });
+      if (this->component(ends[0]) != this->component(ends[1]))
+      {
+        this->addUnsettled(this->best(cell).corner);
+      }
     }
   }
 
@@ -234,14 +243,12 @@ private:
     }
   }
 
-  void joinWithinCells()
+  void joinWithinCells(Execution& execution)
   {
-    for (std::uint32_t cell = 0; cell < this->shell().cells.size(); ++cell)
+    for (const std::int32_t cell : indicesWhere(this->shell().cells.size(), 4096, execution,
+           [&](std::size_t one) { return this->Labels.isSurvivor(one) && this->hasDiagonal(std::uint32_t(one)); }))
     {
-      if (this->Labels.isSurvivor(cell))
-      {
-        this->joinWithin(cell);
-      }
+      this->joinWithin(std::uint32_t(cell));
     }
     this->settle();
   }
@@ -271,6 +278,10 @@ private:
   /** The component of each surviving cell's inside corners, which have one now; nothing where all have the same. */
   std::vector<std::uint32_t> componentsOfCells()
   {
+    if (this->Solid.isOne())
+    {
+      return {};
+    }
     std::vector<std::uint32_t> components(this->shell().cells.size(), None);
     std::uint32_t first = None;
     bool several = false;

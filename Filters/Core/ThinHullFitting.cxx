@@ -342,8 +342,12 @@ private:
     const auto& points = this->TheMesh.points;
     const std::uint32_t first = this->Components.find(std::uint32_t(t[0]));
     Volume& volume = volumes[first];
-    volume.now += product(points[first], points[t[0]], points[t[1]], points[t[2]]);
-    volume.before += product(this->original(std::int32_t(first)), this->original(t[0]), this->original(t[1]), this->original(t[2]));
+    const double now = product(points[first], points[t[0]], points[t[1]], points[t[2]]);
+    const auto isStill = [&](std::int32_t p) { return this->Number[std::size_t(p)] < 0; };
+    volume.now += now;
+    volume.before += isStill(std::int32_t(first)) && std::all_of(t.begin(), t.end(), isStill)
+      ? now
+      : product(this->original(std::int32_t(first)), this->original(t[0]), this->original(t[1]), this->original(t[2]));
   }
 
   Volumes volumes()

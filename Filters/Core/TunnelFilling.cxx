@@ -46,13 +46,17 @@ void check(const TunnelFillingOptions& options)
   }
 }
 
-/** Parts of the lattice points: narrow ones become taken, all others stay. */
+/** Parts of the lattice points: narrow ones become taken, all others stay. For one thread at a time. */
 class Parts
 {
 public:
+  Parts(const Parts&) = delete; // the cursor is this one's
+  Parts& operator=(const Parts&) = delete;
+
   Parts(const LatticeLabels& labels, int width, Execution& execution)
     : Outside(labels, width, execution)
-    , Values(Outside.points().size(), Narrow)
+    , Cursor(this->Outside)
+    , Values(this->Outside.points().size(), Narrow)
   {
   }
 
@@ -62,11 +66,11 @@ public:
   std::uint64_t code(std::size_t n) const { return this->Outside.points()[n]; }
   Part operator[](std::size_t n) const { return Part(this->Values[n]); }
   void take(std::size_t n) { this->Values[n] = Taken; }
-  std::ptrdiff_t find(const LatticePoint& p) const { return this->Outside.find(p); }
+  std::ptrdiff_t find(const LatticePoint& p) const { return this->Cursor.find(p); }
   /** The part of any lattice point. */
   Part at(const LatticePoint& p) const
   {
-    switch (this->Outside.at(p))
+    switch (this->Cursor.at(p))
     {
       case NarrowOutside::Label::Solid:
         return Solid;
@@ -79,6 +83,7 @@ public:
 
 private:
   NarrowOutside Outside;
+  NarrowCursor Cursor;
   std::vector<std::uint8_t> Values;
 };
 

@@ -127,7 +127,7 @@ TEST(LatticeLabels, ByVotesThatAreKnownAreTheSame)
   Scene scene(2);
   const LatticeLabels counted(scene.octree, scene.shell, scene.views, scene.execution);
   const auto votes = shellVotes(scene.octree, scene.shell, LatticeViews(scene.views, scene.octree.lattice), scene.execution);
-  const LatticeLabels known(scene.octree, scene.shell, votes);
+  const LatticeLabels known(scene.octree, scene.shell, votes, scene.execution);
   EXPECT_EQ(counted.inside(), known.inside());
   EXPECT_EQ(counted.support(), known.support());
 }

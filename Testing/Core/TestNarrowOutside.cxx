@@ -42,6 +42,7 @@ NarrowOutside::Label expectedLabel(const LatticeLabels& labels, const LatticePoi
 void expectAsDefined(const LatticeLabels& labels, int width, Execution& execution)
 {
   const NarrowOutside outside(labels, width, execution);
+  const NarrowCursor cursor(outside);
   std::vector<std::uint64_t> narrow, blocks((mortonCode({ 16, 16, 16 }) >> 6) + 1);
   std::iota(blocks.begin(), blocks.end(), std::uint64_t(0));
   const std::vector<std::uint64_t> wide = outside.wideOfBlocks(blocks, execution);
@@ -53,11 +54,11 @@ void expectAsDefined(const LatticeLabels& labels, int width, Execution& executio
       continue;
     }
     const NarrowOutside::Label expected = expectedLabel(labels, p, width);
-    EXPECT_EQ(outside.at(p), expected) << p.i << " " << p.j << " " << p.k << ", width " << width;
+    EXPECT_EQ(cursor.at(p), expected) << p.i << " " << p.j << " " << p.k << ", width " << width;
     EXPECT_EQ(wide[code >> 6] >> (code & 63) & 1, std::uint64_t(expected == NarrowOutside::Label::Wide));
     if (expected == NarrowOutside::Label::Narrow)
     {
-      EXPECT_EQ(outside.find(p), std::ptrdiff_t(narrow.size()));
+      EXPECT_EQ(cursor.find(p), std::ptrdiff_t(narrow.size()));
       narrow.push_back(code);
     }
   }

@@ -55,6 +55,22 @@ TEST(PointBlocks, NeighboursAreThoseOfThePointsOneByOne)
       const PointBlocks set = blocksOf(codes);
       EXPECT_EQ(set.points(), std::vector<std::uint64_t>(codes.begin(), codes.end()));
       EXPECT_EQ(set.beside(lattice).points(), std::vector<std::uint64_t>(expected.begin(), expected.end()));
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        std::set<std::uint64_t> wider = codes;
+        for (const std::uint64_t code : codes)
+        {
+          for (const int step : { -1, 1 })
+          {
+            const LatticePoint q = fromMorton(code) + LatticePoint{ step * (axis == 0), step * (axis == 1), step * (axis == 2) };
+            if (std::min({ q.i, q.j, q.k }) >= 0)
+            {
+              wider.insert(mortonCode(q));
+            }
+          }
+        }
+        EXPECT_EQ(set.spread(axis).points(), std::vector<std::uint64_t>(wider.begin(), wider.end()));
+      }
       // Less some others.
       const auto others = someCodes(lattice, random, count);
       for (const std::uint64_t code : others)

@@ -26,6 +26,7 @@ TEST(WideOutside, MeetsAroundTheSolidAndNotThroughIt)
   {
     LabelledSolid solid(5, [&](const LatticePoint& p) { return hollowBox(p, open); });
     const NarrowOutside narrow(*solid.labels, 3, solid.execution);
+    const NarrowCursor cursor(narrow);
     WideOutside wide(*solid.labels, narrow, solid.execution);
     const std::uint32_t within = wide.setOf(LatticePoint{ 10, 10, 10 });
     EXPECT_NE(within, WideOutside::Nowhere);
@@ -43,14 +44,14 @@ TEST(WideOutside, MeetsAroundTheSolidAndNotThroughIt)
       for (const int a : EdgeNeighbours)
       {
         const LatticePoint q = neighbourOf(fromMorton(narrow.points()[n]), a);
-        const auto label = narrow.at(q);
+        const auto label = cursor.at(q);
         if (label == NarrowOutside::Label::Wide)
         {
           wide.join(n, q);
         }
         else if (label == NarrowOutside::Label::Narrow)
         {
-          wide.join(n, std::size_t(narrow.find(q)));
+          wide.join(n, std::size_t(cursor.find(q)));
         }
       }
     }
