@@ -134,7 +134,7 @@ std::vector<std::uint32_t> CornerEffects::equalCorners(const std::vector<std::ui
 void CornerEffects::lookAhead(const std::vector<std::uint32_t>& cells, Execution& execution)
 {
   const auto asked = this->cornersToAsk(cells);
-  execution.forRanges(asked.size(), 64,
+  execution.forRanges(asked.size(), 1024,
     [&](std::size_t first, std::size_t last)
     {
       LabelCache cache(this->Labels);
@@ -144,7 +144,7 @@ void CornerEffects::lookAhead(const std::vector<std::uint32_t>& cells, Execution
       }
     });
   const auto equals = this->Depth ? this->equalCorners(cells) : std::vector<std::uint32_t>();
-  execution.forRanges(equals.size(), 16,
+  execution.forRanges(equals.size(), 256,
     [&](std::size_t first, std::size_t last)
     {
       OctantCursor octants(this->Labels.octree());

@@ -2,10 +2,12 @@
 #include "CornerShell.h"
 
 #include "Bits.h"
+#include "CodeCursor.h"
 #include "FirstTouch.h"
 #include "RadixSort.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 namespace silhouette
@@ -257,6 +259,34 @@ private:
   std::vector<std::uint32_t> Target;      ///< for each share of a cell block the block of corners
 };
 
+/** Two lists without a code in common, each ascending; `places`: where the first's codes have come to. */
+std::vector<std::uint64_t> merged(
+  const std::vector<std::uint64_t>& many, const std::vector<std::uint64_t>& few, std::vector<std::uint32_t>& places, Execution& execution)
+{
+  std::vector<std::uint64_t> all;
+  resizeSideBySide(all, many.size() + few.size(), execution);
+  resizeSideBySide(places, many.size(), execution);
+  execution.forRanges(many.size(), 4096,
+    [&](std::size_t first, std::size_t last)
+    {
+      auto other = std::lower_bound(few.begin(), few.end(), many[first]);
+      for (std::size_t n = first; n < last; ++n)
+      {
+        while (other != few.end() && *other < many[n])
+        {
+          ++other;
+        }
+        places[n] = std::uint32_t(n + std::size_t(other - few.begin()));
+        all[places[n]] = many[n];
+      }
+    });
+  for (std::size_t n = 0; n < few.size(); ++n)
+  {
+    all[n + std::size_t(std::lower_bound(many.begin(), many.end(), few[n]) - many.begin())] = few[n];
+  }
+  return all;
+}
+
 } // namespace
 
 std::ptrdiff_t CornerShell::find(std::uint64_t corner) const
@@ -282,6 +312,53 @@ CornerShell makeCornerShell(std::vector<std::uint64_t> cells, Execution& executi
   shell.cells = std::move(cells);
   ShellMaker(shell, execution).make();
   return shell;
+}
+
+CornerShell withCells(const CornerShell& shell, const std::vector<std::uint64_t>& others, Execution& execution)
+{
+  std::vector<std::uint64_t> cells;
+  std::set_difference(others.begin(), others.end(), shell.cells.begin(), shell.cells.end(), std::back_inserter(cells));
+  if (cells.size() > shell.cells.size() / 8)
+  {
+    return makeCornerShell(united(shell.cells, cells), execution);
+  }
+  std::vector<std::uint64_t> corners;
+  for (const std::uint64_t cell : cells)
+  {
+    for (int c = 0; c < 8; ++c)
+    {
+      corners.push_back(mortonCode(fromMorton(cell) + cornerOffset(c)));
+    }
+  }
+  sortUnique(corners);
+  CodeCursor known(shell.corners);
+  corners.erase(std::remove_if(corners.begin(), corners.end(), [&](std::uint64_t corner) { return known.find(corner) >= 0; }), corners.end());
+
+  CornerShell wider;
+  std::vector<std::uint32_t> cornerPlaces, cellPlaces; // of the shell's
+  wider.corners = merged(shell.corners, corners, cornerPlaces, execution);
+  wider.cells = merged(shell.cells, cells, cellPlaces, execution);
+  resizeSideBySide(wider.cellCorners, wider.cells.size(), execution);
+  execution.forRanges(shell.cells.size(), 4096,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t cell = first; cell < last; ++cell)
+      {
+        auto& own = wider.cellCorners[cellPlaces[cell]];
+        std::transform(shell.cellCorners[cell].begin(), shell.cellCorners[cell].end(), own.begin(),
+          [&](std::uint32_t corner) { return cornerPlaces[corner]; });
+      }
+    });
+  CodeCursor all(wider.corners), allCells(wider.cells);
+  for (const std::uint64_t cell : cells)
+  {
+    auto& own = wider.cellCorners[std::size_t(allCells.find(cell))];
+    for (int c = 0; c < 8; ++c)
+    {
+      own[std::size_t(c)] = std::uint32_t(all.find(mortonCode(fromMorton(cell) + cornerOffset(c))));
+    }
+  }
+  return wider;
 }
 
 std::vector<std::uint64_t> leafCells(const Octree& octree, OctantState state)

@@ -31,6 +31,12 @@ struct CornerShell
 /** The shell of the given cells (ascending, no code twice). Cost: O(n). */
 CornerShell makeCornerShell(std::vector<std::uint64_t> cells, Execution& execution);
 
+/**
+ * The same as of the shell's cells and others (ascending, no code twice), some of which may be the shell's. Cost: linear, but a third of making it anew
+ * where these are few.
+ */
+CornerShell withCells(const CornerShell& shell, const std::vector<std::uint64_t>& others, Execution& execution);
+
 /** Codes of the octree's last-generation octants of one state. */
 std::vector<std::uint64_t> leafCells(const Octree& octree, OctantState state);
 

@@ -106,7 +106,7 @@ void forEdges(const Mesh& mesh, Execution& execution, const MakeWorker& makeWork
     [&](std::size_t first, std::size_t last)
     {
       auto worker = makeWorker();
-      EdgeTable table(3 * std::min(Together, last - first));
+      EdgeTable table(2 * std::min(Together, last - first)); // an edge for two triangles at least, where they are apart three
       std::vector<EdgeUse> ofRange;
       for (std::size_t n = first; n < last; ++n)
       {

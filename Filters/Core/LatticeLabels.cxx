@@ -27,13 +27,20 @@ constexpr std::uint64_t NoEdge = ~std::uint64_t(0);
 bool locateCrossing(const Eigen::Vector3d& p, const Lattice& lattice, LatticeCrossing& crossing)
 {
   const Eigen::Array3d g = (p - lattice.root.origin).array() / lattice.leafEdge();
-  if (!g.isFinite().all() || (g < -0.5).any() || (g > lattice.cells() + 0.5).any())
+  if (!((g >= -0.5).all() && (g <= lattice.cells() + 0.5).all())) // not finite ones either
   {
     return false;
   }
-  const Eigen::Array3d off = (g - g.round()).abs();
-  Eigen::Index axis = 0;
-  off.maxCoeff(&axis);
+  // Not below -1/2: cutting off is rounding, and cheaper than a call.
+  std::int32_t nearest[3];
+  double off[3];
+  int axis = 0;
+  for (int a = 0; a < 3; ++a)
+  {
+    nearest[a] = std::int32_t(g[a] + 0.5);
+    off[a] = std::abs(g[a] - nearest[a]);
+    axis = off[a] > off[axis] ? a : axis;
+  }
   for (int other = 0; other < 3; ++other)
   {
     if (other != axis && off[other] > OnEdgeTolerance)
@@ -41,10 +48,9 @@ bool locateCrossing(const Eigen::Vector3d& p, const Lattice& lattice, LatticeCro
       return false;
     }
   }
-  LatticePoint lower{ int(std::lround(g[0])), int(std::lround(g[1])), int(std::lround(g[2])) };
-  const int whole = std::clamp(int(std::floor(g[axis])), 0, lattice.cells() - 1);
-  (axis == 0 ? lower.i : axis == 1 ? lower.j : lower.k) = whole;
-  crossing.edge = edgeKey(mortonCode(lower), int(axis));
+  const std::int32_t whole = std::clamp(std::int32_t(std::max(g[axis], 0.0)), 0, lattice.cells() - 1);
+  nearest[axis] = whole;
+  crossing.edge = edgeKey(mortonCode({ nearest[0], nearest[1], nearest[2] }), axis);
   crossing.fraction = std::clamp(g[axis] - whole, 0.0, 1.0);
   return true;
 }

@@ -2,6 +2,7 @@
 #include "RobustLabels.h"
 
 #include "Carving.h"
+#include "CodeCursor.h"
 #include "LatticeRegions.h"
 #include "VotingMarchingCubes.h"
 
@@ -168,29 +169,23 @@ bool holdsAround(const CornerShell& shell, const std::vector<std::uint64_t>& poi
 
 CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
 {
-  std::vector<std::uint64_t> cells = shell.cells;
-  const bool isInOrder = std::adjacent_find(cells.begin(), cells.end(), std::greater_equal<std::uint64_t>()) == cells.end();
+  std::vector<std::uint64_t> around;
+  CodeCursor known(shell.cells);
   for (const std::uint64_t point : points)
   {
     const LatticePoint p = fromMorton(point);
     for (int n = 0; n < 8; ++n)
     {
       const LatticePoint o = cornerOffset(n);
-      cells.push_back(mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k }));
+      const std::uint64_t cell = mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k });
+      if (known.find(cell) < 0)
+      {
+        around.push_back(cell);
+      }
     }
   }
-  if (isInOrder)
-  {
-    const auto more = cells.begin() + std::ptrdiff_t(shell.cells.size());
-    std::sort(more, cells.end());
-    std::inplace_merge(cells.begin(), more, cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  }
-  else
-  {
-    sortUnique(cells);
-  }
-  return makeCornerShell(std::move(cells), execution);
+  sortUnique(around);
+  return withCells(shell, around, execution);
 }
 
 CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, const CornerShell& shell, const PreparedViews& views,
@@ -237,28 +232,22 @@ LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std
     return makeLabels(octree, points.empty() ? std::move(shell) : extendedShell(shell, points, execution), views, capture, execution);
   }
   std::vector<std::uint64_t> survivors = shell.cells;
-  CornerShell wide = std::move(shell);
+  std::vector<std::uint64_t> cells = std::move(shell.cells);
   if (capture.recarved)
   {
-    const auto more = leafCells(base, OctantState::Intersection);
-    wide.cells.insert(wide.cells.end(), more.begin(), more.end());
+    cells = united(cells, leafCells(base, OctantState::Intersection));
   }
   if (const auto& field = capture.correction.field)
   {
-    for (const auto& more : { field->mixedCells(execution), disputedCells(base, *field, execution) })
-    {
-      wide.cells.insert(wide.cells.end(), more.begin(), more.end());
-    }
+    cells = united(united(cells, field->mixedCells(execution)), disputedCells(base, *field, execution));
   }
-  wide = extendedShell(wide, points, execution);
+  CornerShell wide = extendedShell(makeCornerShell(std::move(cells), execution), points, execution);
   LatticeLabels labels = makeLabels(base, wide, used, capture, execution);
   const auto disowned = disownedOctants(octree, labels);
   if (!disowned.empty())
   {
-    survivors.insert(survivors.end(), disowned.begin(), disowned.end());
-    sortUnique(survivors);
-    wide.cells.insert(wide.cells.end(), disowned.begin(), disowned.end());
-    labels = makeLabels(base, extendedShell(wide, {}, execution), used, capture, execution);
+    survivors = united(survivors, disowned);
+    labels = makeLabels(base, withCells(wide, disowned, execution), used, capture, execution);
   }
   labels.setSurvivors(survivors);
   dropUnsupported(labels, execution);

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <unordered_map>
 
 namespace silhouette
 {
@@ -89,6 +91,33 @@ std::vector<std::uint64_t> onceDisputed(const Octree& octree, const LatticeViews
   return corners;
 }
 
+/** Sorted by view, then by code. */
+std::vector<Rejected> byView(const std::vector<Rejected>& rejected, int views, Execution& execution)
+{
+  std::vector<std::size_t> end(std::size_t(views) + 1, 0);
+  for (const Rejected& one : rejected)
+  {
+    ++end[std::size_t(one.view) + 1];
+  }
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<std::size_t> next(end.begin(), end.end() - 1);
+  std::vector<Rejected> sorted(rejected.size());
+  for (const Rejected& one : rejected)
+  {
+    sorted[next[std::size_t(one.view)]++] = one;
+  }
+  execution.forRanges(std::size_t(views), 1,
+                      [&](std::size_t first, std::size_t last)
+                      {
+                        for (std::size_t view = first; view < last; ++view)
+                        {
+                          std::sort(sorted.begin() + std::ptrdiff_t(end[view]), sorted.begin() + std::ptrdiff_t(end[view + 1]),
+                                    [](const Rejected& a, const Rejected& b) { return a.corner < b.corner; });
+                        }
+                      });
+  return sorted;
+}
+
 /**
  * The corners that one view alone rejects, as far as steps along lattice edges reach them from the shell; by
  * view, then by code. Breadth-first: a neighbour of one wave belongs to it, to the one before or to the next,
@@ -116,10 +145,7 @@ std::vector<Rejected> findRejected(const Octree& octree, const LatticeViews& vie
     now = std::move(next);
     appendRejected(views, now.points(), rejected, execution);
   }
-  std::sort(rejected.begin(), rejected.end(),
-            [](const Rejected& a, const Rejected& b)
-            { return a.view != b.view ? a.view < b.view : a.corner < b.corner; });
-  return rejected;
+  return byView(rejected, views.size(), execution);
 }
 
 /** Is no object within `depth` octants of the corner, in the view that rejects it? */
@@ -201,38 +227,32 @@ std::size_t imageArea(const LatticeViews& views, const std::vector<Rejected>& co
   return squares.size();
 }
 
-/** The corners of those components that are long along the view, by view. */
+/** The corners of those of the large components that are long along the view, by view. */
 std::vector<std::vector<std::uint64_t>> longAlongTheView(const LatticeViews& views,
                                                          const std::vector<std::vector<Rejected>>& components,
                                                          const SurvivorBox& box,
                                                          const SilhouetteRepairOptions& options)
 {
-  std::vector<double> chords(components.size(), -1.0);
+  std::vector<double> chords(components.size());
   std::vector<double> longest(views.size(), -1.0);
   for (std::size_t c = 0; c < components.size(); ++c)
   {
-    if (components[c].size() >= std::size_t(options.blobCorners))
-    {
-      const Rejected& any = components[c].front();
-      const double pixels = pixelsPerOctant(views.projection(any.view), fromMorton(any.corner));
-      chords[c] = double(components[c].size()) / double(imageArea(views, components[c], pixels));
-      longest[any.view] = std::max(longest[any.view], chords[c]);
-    }
+    const Rejected& any = components[c].front();
+    const double pixels = pixelsPerOctant(views.projection(any.view), fromMorton(any.corner));
+    chords[c] = double(components[c].size()) / double(imageArea(views, components[c], pixels));
+    longest[any.view] = std::max(longest[any.view], chords[c]);
   }
   const double chord = std::max(options.blobChord, FewViewsChord / views.size()) * box.extent;
   std::vector<std::vector<std::uint64_t>> blobs(views.size());
   for (std::size_t c = 0; c < components.size(); ++c)
   {
-    if (chords[c] >= 0.0)
+    const int view = components[c].front().view;
+    // A view that is wrong elsewhere is trusted less: where a disc crosses the contour, its chord is short.
+    if (longest[view] >= chord && chords[c] >= WrongViewChord * chord)
     {
-      const int view = components[c].front().view;
-      // A view that is wrong elsewhere is trusted less: where a disc crosses the contour, its chord is short.
-      if (longest[view] >= chord && chords[c] >= WrongViewChord * chord)
+      for (const Rejected& corner : components[c])
       {
-        for (const Rejected& corner : components[c])
-        {
-          blobs[view].push_back(corner.corner);
-        }
+        blobs[view].push_back(corner.corner);
       }
     }
   }
@@ -262,10 +282,26 @@ std::vector<std::vector<std::uint64_t>> findBlobs(const Octree& octree, const La
                 corners.end());
 
   ConcurrentUnionFind components = componentsOf(corners, views.size(), execution);
-  std::vector<std::vector<Rejected>> members(corners.size());
-  for (std::size_t c = 0; c < corners.size(); ++c)
+  // Of each large component its members, the components in the order of their first.
+  std::vector<std::uint32_t> sizes(corners.size(), 0);
+  for (std::uint32_t c = 0; c < corners.size(); ++c)
   {
-    members[components.find(std::uint32_t(c))].push_back(corners[c]);
+    ++sizes[components.find(c)];
+  }
+  std::unordered_map<std::uint32_t, std::size_t> places;
+  std::vector<std::vector<Rejected>> members;
+  for (std::uint32_t c = 0; c < corners.size(); ++c)
+  {
+    const std::uint32_t first = components.find(c);
+    if (sizes[first] >= std::uint32_t(options.blobCorners))
+    {
+      const auto place = places.emplace(first, members.size());
+      if (place.second)
+      {
+        members.emplace_back();
+      }
+      members[place.first->second].push_back(corners[c]);
+    }
   }
   return longAlongTheView(views, members, box, options);
 }

@@ -126,3 +126,35 @@ TEST(CornerShell, LeafCellsAreTheLastGenerationOfOneState)
   EXPECT_TRUE(std::is_sorted(cells.begin(), cells.end()));
   EXPECT_TRUE(leafCells(Octree(), OctantState::Inside).empty());
 }
+
+TEST(CornerShell, WithMoreCellsIsAsMadeAnew)
+{
+  Random random(8);
+  const auto someCells = [&](int count)
+  {
+    std::vector<std::uint64_t> cells;
+    for (int n = 0; n < count; ++n)
+    {
+      cells.push_back(mortonCode({ random.below(20), random.below(20), random.below(20) }));
+    }
+    sortUnique(cells);
+    return cells;
+  };
+  for (const int threads : { 1, 3 })
+  {
+    ThreadedExecution execution(threads);
+    for (const auto& [count, more] : { std::make_pair(3000, 100), std::make_pair(3000, 0), std::make_pair(500, 400), std::make_pair(0, 5), std::make_pair(0, 0) })
+    {
+      const CornerShell shell = makeCornerShell(someCells(count), execution);
+      std::vector<std::uint64_t> others = someCells(more);
+      if (count > 0 && more > 0)
+      {
+        others = united(others, { shell.cells.front(), shell.cells.back() });
+      }
+      const CornerShell wider = withCells(shell, others, execution), anew = makeCornerShell(united(shell.cells, others), execution);
+      EXPECT_EQ(wider.cells, anew.cells);
+      EXPECT_EQ(wider.corners, anew.corners);
+      EXPECT_EQ(wider.cellCorners, anew.cellCorners);
+    }
+  }
+}
