@@ -213,30 +213,60 @@ Front gather(std::vector<Part>& parts, Execution& execution)
   return front;
 }
 
-void numberChildren(Generation& generation)
+void numberChildren(Generation& generation, Execution& execution)
 {
-  generation.childBlock.resize(generation.size());
-  std::uint32_t blocks = 0;
-  for (std::size_t i = 0; i < generation.size(); ++i)
+  constexpr std::size_t RunSize = 4096;
+  const std::size_t count = generation.size(), runs = (count + RunSize - 1) / RunSize;
+  const auto forRuns = [&](const auto& work)
   {
-    generation.childBlock[i] = blocks;
-    blocks += generation.state[i] == OctantState::Intersection;
-  }
+    execution.forRanges(runs, 4,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t run = first; run < last; ++run)
+        {
+          work(run, run * RunSize, std::min(count, (run + 1) * RunSize));
+        }
+      });
+  };
+  std::vector<std::uint32_t> before(runs + 1, 0); // blocks before each run
+  forRuns(
+    [&](std::size_t run, std::size_t first, std::size_t last)
+    {
+      before[run + 1] = std::uint32_t(std::count(
+        generation.state.begin() + std::ptrdiff_t(first), generation.state.begin() + std::ptrdiff_t(last), OctantState::Intersection));
+    });
+  std::partial_sum(before.begin(), before.end(), before.begin());
+  resizeSideBySide(generation.childBlock, count, execution);
+  forRuns(
+    [&](std::size_t run, std::size_t first, std::size_t last)
+    {
+      std::uint32_t blocks = before[run];
+      for (std::size_t i = first; i < last; ++i)
+      {
+        generation.childBlock[i] = blocks;
+        blocks += generation.state[i] == OctantState::Intersection;
+      }
+    });
 }
 
 /** What the last front knew, kept for those who ask about corners. */
-UndecidedViews keep(Front& front)
+UndecidedViews keep(Front& front, Execution& execution)
 {
   UndecidedViews kept;
   kept.views = std::move(front.views);
-  kept.first.reserve(front.size() + 1);
-  kept.first.push_back(0);
-  kept.first.insert(kept.first.end(), front.viewEnd.begin(), front.viewEnd.end());
-  for (const Inheritance& inheritance : front.inheritance)
-  {
-    kept.backgroundVotes.push_back(inheritance.backgroundVotes);
-    kept.seen.push_back(inheritance.seen);
-  }
+  resizeSideBySide(kept.first, front.size() + 1, execution);
+  resizeSideBySide(kept.backgroundVotes, front.size(), execution);
+  resizeSideBySide(kept.seen, front.size(), execution);
+  execution.forRanges(front.size(), 4096,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t n = first; n < last; ++n)
+      {
+        kept.first[n + 1] = front.viewEnd[n];
+        kept.backgroundVotes[n] = front.inheritance[n].backgroundVotes;
+        kept.seen[n] = front.inheritance[n].seen;
+      }
+    });
   return kept;
 }
 
@@ -268,8 +298,9 @@ public:
       Front parents = std::move(front);
       Generation& generation = octree.generations[g];
       resizeSideBySide(generation.code, 8 * parents.size(), this->Exec);
-      generation.state.resize(8 * parents.size());
-      std::vector<std::uint16_t> among(g == depth ? 8 * parents.size() : 0);
+      resizeSideBySide(generation.state, 8 * parents.size(), this->Exec);
+      std::vector<std::uint16_t> among;
+      resizeSideBySide(among, g == depth ? 8 * parents.size() : 0, this->Exec);
       front = this->test(octree, g, parents.size(),
         [&](std::size_t i, const OctantTester& tester, Part& part)
         {
@@ -283,7 +314,7 @@ public:
         });
       if (g == depth)
       {
-        octree.undecided = keep(parents);
+        octree.undecided = keep(parents, this->Exec);
         octree.undecided.among = std::move(among);
       }
     }
@@ -295,9 +326,10 @@ private:
   template <typename TestOne>
   Front test(Octree& octree, int g, std::size_t count, const TestOne& testOne)
   {
-    constexpr std::size_t PartSize = 256; // fixed: the parts, and so the bytes, do not depend on the threads
+    // Enough parts for all threads in the upper generations too. The bytes depend neither on the parts nor on the threads.
+    const std::size_t size = std::clamp<std::size_t>(count / 64, 4, 256);
     const OctantTester tester(this->Views, this->BackgroundVotes, g);
-    std::vector<Part> parts((count + PartSize - 1) / PartSize);
+    std::vector<Part> parts((count + size - 1) / size);
     const std::size_t batch = std::size_t(std::max(1, this->Exec.threads())) * 64;
     const double weight = std::ldexp(1.0, 2 * (g - octree.lattice.depth));
     for (std::size_t done = 0; done < parts.size(); done += batch)
@@ -309,7 +341,7 @@ private:
           for (std::size_t p = done + first; p < done + last; ++p)
           {
             parts[p].carvedByView.assign(std::size_t(this->Views.size()), 0);
-            for (std::size_t i = p * PartSize; i < std::min(count, (p + 1) * PartSize); ++i)
+            for (std::size_t i = p * size; i < std::min(count, (p + 1) * size); ++i)
             {
               testOne(i, tester, parts[p]);
             }
@@ -318,7 +350,7 @@ private:
       this->Exec.checkpoint(weight * (0.25 + 0.75 * double(done + n) / double(parts.size())));
     }
     this->countParts(parts, g, octree);
-    numberChildren(octree.generations[g]);
+    numberChildren(octree.generations[g], this->Exec);
     return gather(parts, this->Exec);
   }
 
