@@ -64,4 +64,24 @@ private:
 std::vector<std::uint16_t> cornerVotes(
   const CornerShell& shell, const CellViews& cellViews, const LatticeViews& views, Execution& execution);
 
+/**
+ * cornerVotes() of the shell of an octree's intersection octants. For the octree's own views they are counted once: `count()` is asked only where they are
+ * not known.
+ */
+template <typename Count>
+KnownVotes::Votes octreeVotes(const Octree& octree, const CornerShell& intersection, const LatticeViews& views, const Count& count)
+{
+  const bool isOwn = octree.fingerprint == views.prepared().fingerprint();
+  KnownVotes::Votes votes = isOwn ? octree.votes.get() : nullptr;
+  if (!votes || votes->size() != intersection.corners.size())
+  {
+    votes = std::make_shared<const std::vector<std::uint16_t>>(count());
+    if (isOwn)
+    {
+      octree.votes.set(votes);
+    }
+  }
+  return votes;
+}
+
 } // namespace silhouette

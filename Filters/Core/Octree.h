@@ -11,6 +11,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace silhouette
@@ -93,6 +95,31 @@ struct ViewsToAsk
   }
 };
 
+/** Inside votes by corners, once somebody has counted them. Copies share them. May be asked and told by several threads at once. */
+class KnownVotes
+{
+public:
+  using Votes = std::shared_ptr<const std::vector<std::uint16_t>>;
+
+  KnownVotes() = default;
+  KnownVotes(const KnownVotes& other)
+    : Known(other.get())
+  {
+  }
+  KnownVotes& operator=(const KnownVotes& other)
+  {
+    this->set(other.get());
+    return *this;
+  }
+
+  /** Nothing where they are not known. */
+  Votes get() const { return std::atomic_load(&this->Known); }
+  void set(Votes votes) const { std::atomic_store(&this->Known, std::move(votes)); }
+
+private:
+  mutable Votes Known;
+};
+
 struct Octree
 {
   Lattice lattice;
@@ -104,6 +131,8 @@ struct Octree
   std::vector<Generation> generations; ///< index is the generation; empty below treeGeneration
   CarveStatistics statistics;
   UndecidedViews undecided;            ///< spares whoever asks about corners most of the views; may be empty
+  /** By the octree's own views, of the corners of the last generation's intersection octants; void where the state of one of these is changed. */
+  KnownVotes votes;
 
   const Generation& last() const { return this->generations.back(); }
   std::size_t count(OctantState state, int generation) const;

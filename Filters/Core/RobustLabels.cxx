@@ -225,9 +225,9 @@ LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std
   const PreparedViews& used = capture.repaired ? *capture.repaired : views;
   if (!capture.recarved && !capture.correction.field)
   {
-    if (points.empty() && capture.votes.size() == shell.corners.size())
+    if (points.empty() && capture.votes && capture.votes->size() == shell.corners.size())
     {
-      return LatticeLabels(octree, std::move(shell), capture.votes, execution);
+      return LatticeLabels(octree, std::move(shell), *capture.votes, execution);
     }
     return makeLabels(octree, points.empty() ? std::move(shell) : extendedShell(shell, points, execution), views, capture, execution);
   }

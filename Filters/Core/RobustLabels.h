@@ -21,7 +21,7 @@ struct CorrectedCapture
   std::optional<Mesh> surface;           ///< its surface
   FieldCorrection correction;
   std::uint64_t repairedPixels = 0;
-  std::vector<std::uint16_t> votes; ///< of the shell's corners, where the repair counted them and found nothing to repair
+  KnownVotes::Votes votes; ///< of the shell's corners, where the repair counted them and found nothing to repair
 };
 
 /** Repair and correct. `shell` is that of the octree's intersection octants. */

@@ -3,6 +3,7 @@
 
 #include "CodeCursor.h"
 #include "ConcurrentUnionFind.h"
+#include "CornerVotes.h"
 #include "LatticeLabels.h"
 #include "PointBlocks.h"
 #include "SilhouetteDissent.h"
@@ -73,17 +74,17 @@ void appendRejected(const LatticeViews& views, const std::vector<std::uint64_t>&
 
 /** The shell's corners that one view may alone reject: all where the octree was carved from other views; else `votes` are found as well. */
 std::vector<std::uint64_t> onceDisputed(const Octree& octree, const LatticeViews& views, const CornerShell& shell,
-                                        std::vector<std::uint16_t>& votes, Execution& execution)
+                                        KnownVotes::Votes& votes, Execution& execution)
 {
   if (octree.fingerprint != views.prepared().fingerprint())
   {
     return shell.corners;
   }
-  votes = shellVotes(octree, shell, views, execution);
+  votes = octreeVotes(octree, shell, views, [&] { return shellVotes(octree, shell, views, execution); });
   std::vector<std::uint64_t> corners;
-  for (std::size_t c = 0; c < votes.size(); ++c)
+  for (std::size_t c = 0; c < votes->size(); ++c)
   {
-    if (int(votes[c]) == views.size() - 1)
+    if (int((*votes)[c]) == views.size() - 1)
     {
       corners.push_back(shell.corners[c]);
     }
@@ -124,7 +125,7 @@ std::vector<Rejected> byView(const std::vector<Rejected>& rejected, int views, E
  * so that two waves are all that need be remembered.
  */
 std::vector<Rejected> findRejected(const Octree& octree, const LatticeViews& views, const CornerShell& shell,
-                                   std::vector<std::uint16_t>& votes, Execution& execution)
+                                   KnownVotes::Votes& votes, Execution& execution)
 {
   std::vector<Rejected> rejected;
   const std::vector<std::uint64_t> first = onceDisputed(octree, views, shell, votes, execution);
@@ -263,7 +264,7 @@ std::vector<std::vector<std::uint64_t>> longAlongTheView(const LatticeViews& vie
 std::vector<std::vector<std::uint64_t>> findBlobs(const Octree& octree, const LatticeViews& views, const CornerShell& shell,
                                                   const SurvivorBox& box,
                                                   const SilhouetteRepairOptions& options,
-                                                  std::vector<std::uint16_t>& votes, Execution& execution)
+                                                  KnownVotes::Votes& votes, Execution& execution)
 {
   std::vector<Rejected> corners = findRejected(octree, views, shell, votes, execution);
   std::vector<std::uint8_t> deep(corners.size(), 0);
@@ -377,7 +378,7 @@ std::uint64_t fillBlobs(const LatticeViews& fine, int halvings, int i,
 /** The views with their blobs filled, or nothing where there are none; adds to `filled` by view. */
 std::optional<PreparedViews> withoutBlobs(const Octree& octree, const LatticeViews& lattice, const CornerShell& shell,
                                           const SurvivorBox& box, const SilhouetteRepairOptions& options,
-                                          std::vector<std::uint64_t>& filled, std::vector<std::uint16_t>& votes,
+                                          std::vector<std::uint64_t>& filled, KnownVotes::Votes& votes,
                                           Execution& execution)
 {
   const PreparedViews& views = lattice.prepared();
@@ -439,7 +440,7 @@ SilhouetteRepair repairSilhouettes(const Octree& octree, const CornerShell& shel
       break;
     }
     result.views = std::move(repaired);
-    result.votes.clear();
+    result.votes.reset();
   }
   execution.checkpoint(1.0);
   return result;

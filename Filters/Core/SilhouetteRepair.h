@@ -48,7 +48,7 @@ struct SilhouetteRepair
   std::optional<PreparedViews> views;  ///< all views, repaired; nothing where no view needed it
   std::vector<std::uint64_t> speckles; ///< for each view, pixels that were flipped as speckles
   std::vector<std::uint64_t> blobs;    ///< for each view, pixels that were filled as blobs
-  std::vector<std::uint16_t> votes;    ///< the shell's corners' inside votes, where no view needed repair; else nothing
+  KnownVotes::Votes votes;             ///< the shell's corners' inside votes, where no view needed repair; else nothing
 };
 
 /**

@@ -62,7 +62,7 @@ void giveUp(Octree& octree, int generation, std::size_t index, DroppedSurvivors&
   }
 }
 
-/** childBlock counts intersection octants, of which the last generation may have lost some. */
+/** childBlock counts intersection octants, of which the last generation may have lost some; so have the votes of their corners. */
 void settle(Octree& octree, DroppedSurvivors& dropped)
 {
   Generation& last = octree.generations.back();
@@ -72,6 +72,7 @@ void settle(Octree& octree, DroppedSurvivors& dropped)
     last.childBlock[i] = blocks;
     blocks += last.state[i] == OctantState::Intersection;
   }
+  octree.votes.set(nullptr);
   std::sort(dropped.leaves.begin(), dropped.leaves.end());
 }
 

@@ -103,6 +103,7 @@ Octree mergeTrees(const std::vector<Octree>& parts)
   }
   Octree whole = parts.front();
   whole.undecided = UndecidedViews();
+  whole.votes.set(nullptr);
   whole.statistics = CarveStatistics();
   whole.statistics.carvedByView.assign(std::size_t(whole.viewCount), 0.0);
   for (const auto& part : parts)

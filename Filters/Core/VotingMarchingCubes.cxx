@@ -102,7 +102,9 @@ VotingSurface votingMarchingCubes(
 
   const CellViews cellViews(octree, shell, latticeViews, execution);
   Phase voting(execution, 0.15, 0.5);
-  const std::vector<std::uint16_t> votes = cornerVotes(shell, cellViews, latticeViews, voting);
+  const KnownVotes::Votes counted = octreeVotes(
+    octree, shell, latticeViews, [&] { return cornerVotes(shell, cellViews, latticeViews, voting); });
+  const std::vector<std::uint16_t>& votes = *counted;
   const std::vector<std::uint8_t> voted = labels(octree.lattice, shell, votes, views.size() - allowed, execution);
   std::optional<SubPixelCrossing> subPixel;
   std::vector<std::uint8_t> moved; // the labels, where they are not those of the votes

@@ -2,6 +2,7 @@
 #include "CornerVotes.h"
 
 #include "CarvingTestCaptures.h"
+#include "SurvivorIslands.h"
 #include "EdgeCrossing.h"
 #include "LatticeSurface.h"
 
@@ -149,4 +150,31 @@ TEST(CornerVotes, SameBytesForAnyNumberOfThreads)
     const CellViews cellViews(scene.octree, scene.shell, scene.views, execution);
     EXPECT_EQ(cornerVotes(scene.shell, cellViews, scene.views, execution), one);
   }
+}
+
+/** Known votes are those of the octree's own views and of its own corners. */
+TEST(CornerVotes, OfAnOctreeAreCountedOnce)
+{
+  Scene scene(0, OutsidePolicy::Border);
+  int counts = 0;
+  const auto count = [&]
+  {
+    ++counts;
+    return scene.votes();
+  };
+  const auto first = octreeVotes(scene.octree, scene.shell, scene.views, count);
+  EXPECT_EQ(*first, scene.votes());
+  EXPECT_EQ(octreeVotes(scene.octree, scene.shell, scene.views, count), first);
+  const Octree copy = scene.octree;
+  EXPECT_EQ(octreeVotes(copy, scene.shell, scene.views, count), first);
+  EXPECT_EQ(counts, 1);
+
+  const PreparedViews others = prepareViews(Scene::noisyViews(), OutsidePolicy::Background);
+  octreeVotes(copy, scene.shell, LatticeViews(others, copy.lattice), count);
+  EXPECT_EQ(counts, 2) << "other views";
+  EXPECT_EQ(octreeVotes(copy, scene.shell, scene.views, count), first) << "which are not remembered";
+  DroppedSurvivors dropped;
+  const Octree less = dropLeaves(copy, { scene.shell.cells.front() }, dropped);
+  EXPECT_EQ(less.votes.get(), nullptr) << "fewer corners";
+  EXPECT_EQ(copy.votes.get(), first);
 }
