@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CornerDepth.h"
 
+#include "Bits.h"
 #include "Error.h"
 #include "SilhouetteDissent.h"
 
@@ -46,22 +47,57 @@ double nearestInRow(const PreparedView& view, double u, int row, double most)
   return most;
 }
 
+constexpr double WindowReach = 7.0; ///< px: pixels nearer than that to a place lie in the four windows around its own
+
+/** nearestObject() by the four windows of 8 x 8 pixels around (column, row), all of them in the image; `most` is WindowReach at most. */
+double nearestInWindows(const PreparedView& view, int column, int row, double u, double v, double most)
+{
+  double square = most * most;
+  for (const int below : { 0, -8 })
+  {
+    const std::uint64_t left = view.window(column - 8, row + below), right = view.window(column, row + below);
+    for (std::uint64_t rows = left | right; rows != 0;)
+    {
+      const int shift = lowestBit(rows) & 56; // the next row that holds any
+      rows &= ~(std::uint64_t(0xff) << shift);
+      const double across = away(row + below + shift / 8, v);
+      const std::uint64_t before = left >> shift & 0xff, after = right >> shift & 0xff;
+      if (before != 0)
+      {
+        const double along = away(column - 8 + highestBit(before), u);
+        square = std::min(square, along * along + across * across);
+      }
+      if (after != 0)
+      {
+        const double along = away(column + lowestBit(after), u);
+        square = std::min(square, along * along + across * across);
+      }
+    }
+  }
+  return std::sqrt(square);
+}
+
 /** Distance from a place in the image to the nearest pixel square of the object, px; `most` where it is no less. */
 double nearestObject(const PreparedView& view, double u, double v, double most)
 {
-  const int first = std::clamp(int(std::floor(v + 0.5)), 0, view.height - 1);
+  const int column = int(std::floor(u + 0.5)), row = int(std::floor(v + 0.5));
+  if (most <= WindowReach && view.inImage(column - 8, column + 7, row - 8, row + 7))
+  {
+    return nearestInWindows(view, column, row, u, v, most);
+  }
+  const int first = std::clamp(row, 0, view.height - 1);
   double square = most * most;
   bool any = true;
   for (int steps = 0; any; ++steps)
   {
     any = false;
-    for (const int row : { first - steps, first + steps })
+    for (const int other : { first - steps, first + steps })
     {
-      const double across = away(row, v);
-      if (row >= 0 && row < view.height && across * across < square)
+      const double across = away(other, v);
+      if (other >= 0 && other < view.height && across * across < square)
       {
         any = true;
-        const double along = nearestInRow(view, u, row, std::sqrt(square - across * across));
+        const double along = nearestInRow(view, u, other, std::sqrt(square - across * across));
         square = std::min(square, along * along + across * across);
       }
     }
@@ -74,7 +110,6 @@ double nearestObject(const PreparedView& view, double u, double v, double most)
 CornerDepth::CornerDepth(const Octree& octree, const LatticeViews& views, double reach)
   : Views(&views)
   , Undecided(octree, views)
-  , Depth(octree.lattice.depth)
   , BackgroundVotes(octree.backgroundVotes)
   , Reach(reach)
 {
@@ -89,25 +124,10 @@ CornerDepth::CornerDepth(const Octree& octree, const LatticeViews& views, double
   }
 }
 
-/** All of them, unless the others are known to call the corner object or to say nothing of it. */
-ViewsToAsk CornerDepth::viewsAround(const LatticePoint& p, OctantCursor& octants) const
-{
-  for (int n = 0; n < 8 && this->BackgroundVotes == 0 && this->Undecided.isKnown(); ++n)
-  {
-    const LatticePoint o = cornerOffset(n);
-    const auto octant = octants.locate(LatticePoint{ p.i - o.i, p.j - o.j, p.k - o.k });
-    if (octant.generation == this->Depth && octant.state == OctantState::Intersection)
-    {
-      return this->Undecided[octant.index];
-    }
-  }
-  return this->Undecided.all();
-}
-
 double CornerDepth::operator()(const LatticePoint& p, OctantCursor& octants) const
 {
   std::vector<double> outside;
-  this->viewsAround(p, octants).forEach(
+  this->Undecided.around(p, octants).forEach(
     [&](int view)
     {
       if (this->Views->vote(view, p) == Vote::Background)

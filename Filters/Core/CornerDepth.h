@@ -29,11 +29,9 @@ public:
 
 private:
   double outsideView(int view, const LatticePoint& p) const;
-  ViewsToAsk viewsAround(const LatticePoint& p, OctantCursor& octants) const;
 
   const LatticeViews* Views;
   LeafViews Undecided;
-  int Depth; ///< of the octree
   int BackgroundVotes;
   double Reach;
 };

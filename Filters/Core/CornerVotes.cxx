@@ -17,6 +17,20 @@ LeafViews::LeafViews(const Octree& octree, const LatticeViews& views)
   std::iota(this->All.begin(), this->All.end(), std::uint16_t(0));
 }
 
+ViewsToAsk LeafViews::around(const LatticePoint& p, OctantCursor& octants) const
+{
+  for (int n = 0; n < 8 && this->isKnown() && this->Source->backgroundVotes == 0; ++n)
+  {
+    const LatticePoint o = cornerOffset(n);
+    const auto octant = octants.locate(LatticePoint{ p.i - o.i, p.j - o.j, p.k - o.k });
+    if (octant.generation == this->Source->lattice.depth && octant.state == OctantState::Intersection)
+    {
+      return (*this)[octant.index];
+    }
+  }
+  return this->all();
+}
+
 CellViews::CellViews(
   const Octree& octree, const CornerShell& shell, const LatticeViews& views, Execution& execution)
   : Views(octree, views)

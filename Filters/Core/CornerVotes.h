@@ -32,6 +32,11 @@ public:
     return { undecided.views.data() + first, undecided.first[parent + 1] - first, undecided.backgroundVotes[parent], undecided.seen[parent] != 0,
       choose ? undecided.among[leaf] : std::uint16_t(0xffff) };
   }
+  /**
+   * Who may call a lattice point background: all, unless it is a corner of a surviving octant that no view may dissent from and it is known who is
+   * undecided about that; the others call it object, or say nothing.
+   */
+  ViewsToAsk around(const LatticePoint& p, OctantCursor& octants) const;
 
 private:
   const Octree* Source; ///< or nothing

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace silhouette
 {
@@ -20,12 +19,14 @@ struct CellBox
 
   CellBox(const Lattice& lattice, const Box& box)
   {
-    const double greatest = lattice.cells() - 1;
+    const double greatest = lattice.cells() - 1, cells = 1.0 / lattice.leafEdge();
     for (int axis = 0; axis < 3; ++axis)
     {
-      const auto cellOf = [&](double x) { return std::floor((x - lattice.root.origin[axis]) / lattice.leafEdge()); };
-      this->first[axis] = std::int32_t(std::clamp(cellOf(box.min()[axis]) - 1.0, 0.0, greatest));
-      this->last[axis] = std::int32_t(std::clamp(cellOf(box.max()[axis]) + 1.0, 0.0, greatest));
+      // Cutting off what is not negative: floor would be a call.
+      const auto cellOf = [&](double x, double beside)
+      { return std::int32_t(std::clamp((x - lattice.root.origin[axis]) * cells + beside, 0.0, greatest)); };
+      this->first[axis] = cellOf(box.min()[axis], -1.0);
+      this->last[axis] = cellOf(box.max()[axis], 1.0);
     }
   }
 };
@@ -76,28 +77,43 @@ void CoverageNear::findSurvivors(const Octree& octree, const std::vector<Box>& s
 void CoverageNear::findTriangles(const Mesh& mesh, const std::vector<Box>& swept, Execution& execution)
 {
   const std::size_t n = std::size_t(this->Part.lattice.cells());
-  std::vector<std::uint8_t> rows(n * n, 0); // along x, in which there are such survivors
+  enum : std::uint8_t
+  {
+    HasSurvivors = 1,
+    IsSwept = 2
+  };
+  std::vector<std::uint8_t> rows(n * n, 0); // along x
   for (const std::uint64_t cell : this->Part.last().code)
   {
     const LatticePoint p = fromMorton(cell);
-    rows[std::size_t(p.k) * n + std::size_t(p.j)] = 1;
+    rows[std::size_t(p.k) * n + std::size_t(p.j)] |= HasSurvivors;
+  }
+  const auto forRows = [&](const CellBox& range, const auto& work)
+  {
+    for (std::int32_t k = range.first[2]; k <= range.last[2]; ++k)
+    {
+      for (std::int32_t j = range.first[1]; j <= range.last[1]; ++j)
+      {
+        work(rows[std::size_t(k) * n + std::size_t(j)]);
+      }
+    }
+  };
+  for (const Box& box : swept)
+  {
+    forRows(CellBox(this->Part.lattice, box), [](std::uint8_t& row) { row |= IsSwept; });
   }
   const BoxTree moving(swept);
   const auto concerns = [&](std::size_t t)
   {
     const Box box = triangleBox(mesh.points, mesh.triangles[t]);
-    const CellBox range(this->Part.lattice, box);
-    bool met = false;
-    for (std::int32_t k = range.first[2]; k <= range.last[2] && !met; ++k)
+    std::uint8_t met = 0;
+    forRows(CellBox(this->Part.lattice, box), [&](std::uint8_t row) { met |= row; });
+    bool may = (met & HasSurvivors) != 0;
+    if (met == IsSwept) // it may move into such a row
     {
-      const std::uint8_t* row = &rows[std::size_t(k) * n];
-      met = std::find(row + range.first[1], row + range.last[1] + 1, std::uint8_t(1)) != row + range.last[1] + 1;
+      moving.overlapping(box, [&](std::int32_t) { may = true; });
     }
-    if (!met) // it may move into such a row
-    {
-      moving.overlapping(box, [&](std::int32_t) { met = true; });
-    }
-    return met;
+    return may;
   };
   this->Triangles = MeshPart(mesh, indicesWhere(mesh.triangles.size(), 1024, execution, concerns));
 }

@@ -72,6 +72,59 @@ void appendRejected(const LatticeViews& views, const std::vector<std::uint64_t>&
   }
 }
 
+/** Number of views that never abstain within the root cube. */
+int viewsThatSpeak(const LatticeViews& views)
+{
+  int count = 0;
+  const std::int32_t n = views.lattice().cells();
+  for (int i = 0; i < views.size(); ++i)
+  {
+    const auto& open = views.view(i).open;
+    bool speaks = std::none_of(open.begin(), open.end(), [](bool side) { return side; });
+    for (int c = 0; c < 8; ++c)
+    {
+      const LatticePoint o = cornerOffset(c);
+      const LatticeProjection& projection = views.projection(i);
+      speaks = speaks && projection({n * o.i, n * o.j, n * o.k}).W > projection.minimumDepth;
+    }
+    count += speaks;
+  }
+  return count;
+}
+
+/** The same of corners of the octree's surviving octants, each of which one of its own views calls background. */
+void appendRejectedOnce(const Octree& octree, const LatticeViews& views, const std::vector<std::uint64_t>& corners,
+                        std::vector<Rejected>& rejected, Execution& execution)
+{
+  const LeafViews undecided(octree, views);
+  // Then half of them call such a corner object.
+  if (!undecided.isKnown() || 2 * (viewsThatSpeak(views) - 1) < views.size())
+  {
+    appendRejected(views, corners, rejected, execution);
+    return;
+  }
+  rejected.resize(corners.size());
+  execution.forRanges(corners.size(), 1024,
+                      [&](std::size_t first, std::size_t last)
+                      {
+                        OctantCursor octants(octree);
+                        for (std::size_t i = first; i < last; ++i)
+                        {
+                          const LatticePoint p = fromMorton(corners[i]);
+                          rejected[i].corner = corners[i];
+                          undecided.around(p, octants)
+                              .forEach(
+                                  [&](int view)
+                                  {
+                                    if (rejected[i].view < 0 && views.vote(view, p) == Vote::Background)
+                                    {
+                                      rejected[i].view = view;
+                                    }
+                                  });
+                        }
+                      });
+}
+
 /** The shell's corners that one view may alone reject: all where the octree was carved from other views; else `votes` are found as well. */
 std::vector<std::uint64_t> onceDisputed(const Octree& octree, const LatticeViews& views, const CornerShell& shell,
                                         KnownVotes::Votes& votes, Execution& execution)
@@ -129,7 +182,7 @@ std::vector<Rejected> findRejected(const Octree& octree, const LatticeViews& vie
 {
   std::vector<Rejected> rejected;
   const std::vector<std::uint64_t> first = onceDisputed(octree, views, shell, votes, execution);
-  appendRejected(views, first, rejected, execution);
+  votes ? appendRejectedOnce(octree, views, first, rejected, execution) : appendRejected(views, first, rejected, execution);
   PointBlocks before, now(shell.corners);
   for (std::size_t done = 0; done < rejected.size();)
   {
@@ -158,9 +211,11 @@ bool isDeep(const LatticeViews& views, const Rejected& rejected, double depth)
   const PreparedView& view = views.view(rejected.view);
   const double u = h.U / h.W, v = h.V / h.W, radius = depth * pixelsPerOctant(projection, p);
   // Three rectangles whose corners lie on the circle stand for the disc: a few table look-ups.
-  for (const double angle : {0.3926990816987241, 0.7853981633974483, 1.1780972450961724})
+  static const double cosines[] = {std::cos(0.3926990816987241), std::cos(0.7853981633974483), std::cos(1.1780972450961724)};
+  static const double sines[] = {std::sin(0.3926990816987241), std::sin(0.7853981633974483), std::sin(1.1780972450961724)};
+  for (int n = 0; n < 3; ++n)
   {
-    const double a = radius * std::cos(angle), b = radius * std::sin(angle);
+    const double a = radius * cosines[n], b = radius * sines[n];
     const auto content = view.content(
         PreparedView::nearestPixel(u - a, view.width), PreparedView::nearestPixel(u + a, view.width),
         PreparedView::nearestPixel(v - b, view.height), PreparedView::nearestPixel(v + b, view.height));
