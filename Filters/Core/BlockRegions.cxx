@@ -223,10 +223,10 @@ void BlockRegions::joinPoints(std::size_t block, std::uint64_t points, std::uint
 }
 
 /** The Morton codes of the blocks around one. */
-class BlockRegions::CodesAround
+class BlockRegions::BlocksAround
 {
 public:
-  CodesAround(std::uint64_t block, std::int32_t blocks)
+  BlocksAround(std::uint64_t block, std::int32_t blocks)
   {
     const LatticePoint p = fromMorton(block);
     const std::int32_t coordinates[3] = { p.i, p.j, p.k };
@@ -261,7 +261,7 @@ private:
 };
 
 /** Join a block's parts to what lies in a direction where there is no block. */
-void BlockRegions::joinElsewhere(std::size_t block, const CodesAround& around, const Direction& direction, OctantCursor& cursor)
+void BlockRegions::joinElsewhere(std::size_t block, const BlocksAround& around, const Direction& direction, OctantCursor& cursor)
 {
   std::uint32_t number = this->WithBeyond ? this->Beyond : None;
   if (around.isOfCells(direction.step))
@@ -309,13 +309,13 @@ void BlockRegions::joinBlocks(Steps steps, Execution& execution)
           }
           if (members != 0)
           {
-            work(block, members, CodesAround(this->Blocks[block], blocks), cursor);
+            work(block, members, BlocksAround(this->Blocks[block], blocks), cursor);
           }
         }
       });
   };
   forBlocks(
-    [&](std::size_t block, std::uint64_t members, const CodesAround& around, OctantCursor& cursor)
+    [&](std::size_t block, std::uint64_t members, const BlocksAround& around, OctantCursor& cursor)
     {
       if (this->WithBeyond)
       {
@@ -342,7 +342,7 @@ void BlockRegions::joinBlocks(Steps steps, Execution& execution)
       }
     });
   forBlocks(
-    [&](std::size_t block, std::uint64_t members, const CodesAround& around, OctantCursor& cursor)
+    [&](std::size_t block, std::uint64_t members, const BlocksAround& around, OctantCursor& cursor)
     {
       const unsigned found = marked[block].load(std::memory_order_relaxed);
       for (std::size_t d = 0; d < behind.size(); ++d)

@@ -65,13 +65,13 @@ public:
 
 private:
   struct Direction;
-  class CodesAround;
+  class BlocksAround;
 
   void findParts(Steps steps, const std::vector<std::uint64_t>& members, Execution& execution);
   void findOctants(OctantState state, Execution& execution);
   void joinOctants(Execution& execution);
   void joinBlocks(Steps steps, Execution& execution);
-  void joinElsewhere(std::size_t block, const CodesAround& around, const Direction& direction, OctantCursor& cursor);
+  void joinElsewhere(std::size_t block, const BlocksAround& around, const Direction& direction, OctantCursor& cursor);
   void joinPoints(std::size_t block, std::uint64_t points, std::uint32_t number);
 
   const Octree* Source;

@@ -66,8 +66,8 @@ private:
 };
 
 /**
- * BrickField::find() for points near one another: the bricks found last are remembered, eight, as many as meet in a
- * point. Not for several threads at once. The field has to outlive it.
+ * BrickField::find() for points near one another: the bricks found last are remembered, 64: a brick and all around it have places of their
+ * own. Not for several threads at once. The field has to outlive it.
  */
 class BrickCursor
 {
@@ -81,7 +81,7 @@ public:
   std::ptrdiff_t find(std::uint64_t point)
   {
     const std::uint64_t brick = point / BrickField::BrickPoints;
-    const std::size_t slot = brick % 8; // the oddness of its coordinates: neighbours have other slots
+    const std::size_t slot = brick % this->Brick.size(); // by its coordinates' two lowest bits
     if (this->Brick[slot] != brick)
     {
       this->Brick[slot] = brick;
@@ -93,8 +93,8 @@ public:
 
 private:
   const BrickField* Field;
-  std::array<std::uint64_t, 8> Brick;
-  std::array<std::ptrdiff_t, 8> Index{};
+  std::array<std::uint64_t, 64> Brick;
+  std::array<std::ptrdiff_t, 64> Index{};
 };
 
 } // namespace silhouette

@@ -16,7 +16,7 @@ namespace silhouette
 {
 
 /**
- * The blocks of 4 x 4 x 4 points found last are remembered, eight, as many as meet in a point. Not for several threads at once. The codes have to outlive
+ * The blocks of 4 x 4 x 4 points found last are remembered, 64: a block and all around it have places of their own. Not for several threads at once. The codes have to outlive
  * it. Cost: a binary search for each block that is not remembered.
  */
 class CodeCursor
@@ -37,7 +37,7 @@ public:
   /** Index of a code among them, or -1. */
   std::ptrdiff_t find(std::uint64_t code)
   {
-    Block& block = this->Blocks[(code >> 6) % this->Blocks.size()]; // the oddness of its coordinates: neighbours have other slots
+    Block& block = this->Blocks[(code >> 6) % this->Blocks.size()]; // by its coordinates' two lowest bits
     if (block.code != code >> 6)
     {
       this->read(code >> 6, block);
@@ -66,7 +66,7 @@ private:
 
   const std::uint64_t* First;
   const std::uint64_t* Last;
-  std::array<Block, 8> Blocks;
+  std::array<Block, 64> Blocks;
 };
 
 } // namespace silhouette

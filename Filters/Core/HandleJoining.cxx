@@ -36,10 +36,24 @@ struct CornerSurroundings
   std::uint32_t beyond = 0;             ///< the points that are no corners of the shell and inside, a bit each
   std::array<std::uint32_t, 8> cells;   ///< the surviving ones of the shell
   int cellCount = 0;
+  int parts = 0; ///< of what is inside or taken, that the corner touched then
 };
 
+/** Which points around a corner are inside, or taken. */
+Neighbourhood labelsAround(const CornerSurroundings& surroundings, const std::vector<std::uint8_t>& taken)
+{
+  Neighbourhood labels(surroundings.beyond);
+  for (std::size_t n = 0; n < labels.size(); ++n)
+  {
+    const std::int32_t corner = surroundings.corners[n];
+    labels[n] = n != 13 && (corner >= 0 ? taken[std::size_t(corner)] != 0 : labels[n]);
+  }
+  return labels;
+}
+
 /** Of some corners of the shell, each in its place; found side by side, in the order of the lattice, where neighbours are found fastest. */
-std::vector<CornerSurroundings> surroundings(const LatticeLabels& labels, const std::uint32_t* corners, std::size_t count, Execution& execution)
+std::vector<CornerSurroundings> surroundings(
+  const LatticeLabels& labels, const std::vector<std::uint8_t>& taken, const std::uint32_t* corners, std::size_t count, Execution& execution)
 {
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), std::uint32_t(0));
@@ -48,19 +62,30 @@ std::vector<CornerSurroundings> surroundings(const LatticeLabels& labels, const 
   execution.forRanges(count, 256,
     [&](std::size_t first, std::size_t last)
     {
-      CodeCursor shell(labels.shell().corners);
+      CodeCursor shell(labels.shell().corners), cells(labels.shell().cells);
       LabelCache beyond(labels);
       for (std::size_t n = first; n < last; ++n)
       {
         CornerSurroundings& own = found[order[n]];
-        const LatticePoint p = fromMorton(labels.shell().corners[corners[order[n]]]);
+        const std::uint32_t corner = corners[order[n]];
+        const LatticePoint p = fromMorton(labels.shell().corners[corner]);
+        const CodesAround codes(p);
         for (int a = 0; a < 27; ++a)
         {
-          const LatticePoint q = neighbourOf(p, a);
-          own.corners[std::size_t(a)] = std::int32_t(shell.find(mortonCode(q)));
-          own.beyond |= std::uint32_t(own.corners[std::size_t(a)] < 0 && beyond.insideAt(q)) << a;
+          own.corners[std::size_t(a)] = std::int32_t(shell.find(codes[a]));
+          own.beyond |= std::uint32_t(own.corners[std::size_t(a)] < 0 && beyond.insideAt(codes[a])) << a;
         }
-        own.cellCount = labels.cellsAround(p, own.cells);
+        own.parts = topologicalNumbers(labelsAround(own, taken)).inside;
+        // Of the 27 around, the first eight in each coordinate are lowest corners of the cells around.
+        for (int cell = 7; cell >= 0; --cell)
+        {
+          const LatticePoint o = cornerOffset(cell);
+          const std::ptrdiff_t at = cells.find(codes[o.i + 3 * o.j + 9 * o.k]);
+          if (at >= 0 && labels.isSurvivor(std::size_t(at)))
+          {
+            own.cells[std::size_t(own.cellCount++)] = std::uint32_t(at);
+          }
+        }
       }
     });
   return found;
@@ -75,23 +100,35 @@ public:
     , Taken(labels.inside())
     , From(Taken.size(), Nobody)
     , Paths(labels.shell(), Taken)
+    , Changed(Taken.size(), 0)
   {
+  }
+
+  /** The corners' surroundings now. */
+  std::vector<CornerSurroundings> look(const std::uint32_t* corners, std::size_t count, Execution& execution)
+  {
+    ++this->Looks;
+    return surroundings(this->Labels, this->Taken, corners, count, execution);
   }
 
   /** Take a corner that the field allows, unless it joins parts that meet anyway; what it joins beyond that is noted. */
   void grow(std::uint32_t corner, const CornerSurroundings& around)
   {
+    if (!this->mayTouch(corner, around, 1))
+    {
+      return;
+    }
     const auto parts = this->partsAround(around, {});
     if (!parts.empty() && !this->anyMeet(parts))
     {
-      this->take(corner, parts);
+      this->take(corner, around, parts);
     }
   }
 
   /** Take a corner if it joins survivors that touch in it and do not meet otherwise. */
   void join(std::uint32_t corner, const CornerSurroundings& around)
   {
-    if (around.cellCount < 2)
+    if (around.cellCount < 2 || !this->mayTouch(corner, around, 2))
     {
       return;
     }
@@ -104,7 +141,7 @@ public:
     const auto parts = this->partsAround(around, ends);
     if (parts.size() > 1 && !this->anyMeet(parts))
     {
-      this->take(corner, parts);
+      this->take(corner, around, parts);
     }
   }
 
@@ -119,16 +156,17 @@ public:
 private:
   static constexpr std::uint32_t Nobody = 0xffffffffu;
 
+  /** False where the corner touched fewer parts when its surroundings were looked at, and none of these has changed since. */
+  bool mayTouch(std::uint32_t corner, const CornerSurroundings& around, int parts) const
+  {
+    return around.parts >= parts || this->Changed[corner] == this->Looks;
+  }
+
   /** A corner, of `among` if that is not empty, of each part around a corner; nothing where a part has none. */
   std::vector<std::uint32_t> partsAround(const CornerSurroundings& surroundings, const std::vector<std::uint32_t>& among)
   {
-    Neighbourhood labels;
     const auto& around = surroundings.corners;
-    for (int n = 0; n < 27; ++n)
-    {
-      labels[n] = n != 13 && (around[n] >= 0 ? this->Taken[std::size_t(around[n])] != 0 : (surroundings.beyond >> n & 1) != 0);
-    }
-    const TopologicalNumbers numbers = topologicalNumbers(labels);
+    const TopologicalNumbers numbers = topologicalNumbers(labelsAround(surroundings, this->Taken));
     std::vector<std::uint32_t> parts(numbers.inside, Nobody); // a corner of each, of the shell
     for (int n = 0; n < 27; ++n)
     {
@@ -157,9 +195,16 @@ private:
     return false;
   }
 
-  void take(std::uint32_t corner, const std::vector<std::uint32_t>& parts)
+  void take(std::uint32_t corner, const CornerSurroundings& around, const std::vector<std::uint32_t>& parts)
   {
     this->Taken[corner] = 1;
+    for (const std::int32_t other : around.corners)
+    {
+      if (other >= 0)
+      {
+        this->Changed[std::size_t(other)] = this->Looks;
+      }
+    }
     this->From[corner] = parts[0];
     if (parts.size() > 1)
     {
@@ -179,6 +224,8 @@ private:
   std::vector<std::uint8_t> Taken;
   std::vector<std::uint32_t> From; ///< towards the solid
   ShellPaths Paths;
+  std::vector<std::uint32_t> Changed; ///< for each corner the last look after which one around it was taken
+  std::uint32_t Looks = 0;
   std::vector<std::uint32_t> Joints;
 };
 
@@ -210,7 +257,7 @@ std::vector<std::uint64_t> handleJoints(
   for (std::size_t first = 0; first < corners.size(); first += Batch)
   {
     execution.checkpoint(double(first) / double(corners.size()));
-    const auto around = surroundings(labels, &corners[first], std::min(Batch, corners.size() - first), execution);
+    const auto around = joining.look(&corners[first], std::min(Batch, corners.size() - first), execution);
     for (std::size_t n = 0; n < around.size(); ++n)
     {
       const std::uint32_t corner = corners[first + n];

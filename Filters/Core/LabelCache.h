@@ -28,20 +28,25 @@ public:
     return this->insideAt(mortonCode(p));
   }
 
+  /** The same by its Morton code. */
+  bool insideAt(std::uint64_t code)
+  {
+    Block& block = this->Remembered[(code >> 6) % Slots];
+    if (block.code != code >> 6)
+    {
+      block = { code >> 6, this->Labels->insideOfBlock(code >> 6) };
+    }
+    return (block.inside >> (code & 63) & 1) != 0;
+  }
+
   /** Labels of the 27 points around one whose coordinates are 1 and more, by neighbourOf(); its own is false. */
   Neighbourhood insideAround(const LatticePoint& p)
   {
-    std::uint64_t codes[3][3];
-    for (int step = 0; step < 3; ++step)
-    {
-      codes[0][step] = mortonCode({ p.i + step - 1, 0, 0 });
-      codes[1][step] = mortonCode({ 0, p.j + step - 1, 0 });
-      codes[2][step] = mortonCode({ 0, 0, p.k + step - 1 });
-    }
+    const CodesAround codes(p);
     Neighbourhood labels;
     for (int n = 0; n < 27; ++n)
     {
-      labels[std::size_t(n)] = n != 13 && this->insideAt(codes[0][n % 3] | codes[1][n / 3 % 3] | codes[2][n / 9]);
+      labels[std::size_t(n)] = n != 13 && this->insideAt(codes[n]);
     }
     return labels;
   }
@@ -55,16 +60,6 @@ public:
 
 private:
   static constexpr std::size_t Slots = 4096;
-
-  bool insideAt(std::uint64_t code)
-  {
-    Block& block = this->Remembered[(code >> 6) % Slots];
-    if (block.code != code >> 6)
-    {
-      block = { code >> 6, this->Labels->insideOfBlock(code >> 6) };
-    }
-    return (block.inside >> (code & 63) & 1) != 0;
-  }
 
   struct Block
   {

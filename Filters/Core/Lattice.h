@@ -48,6 +48,17 @@ inline LatticePoint neighbourOf(const LatticePoint& p, int n)
   return { p.i + n % 3 - 1, p.j + n / 3 % 3 - 1, p.k + n / 9 - 1 };
 }
 
+/** Morton codes of the 27 points around one whose coordinates are 1 and more, by their numbers for neighbourOf(). */
+class CodesAround
+{
+public:
+  explicit CodesAround(const LatticePoint& p);
+  std::uint64_t operator[](int n) const { return this->Along[0][n % 3] | this->Along[1][n / 3 % 3] | this->Along[2][n / 9]; }
+
+private:
+  std::uint64_t Along[3][3];
+};
+
 /** The numbers, for neighbourOf(), of the six points at the other ends of a lattice point's edges. */
 inline constexpr int EdgeNeighbours[6] = { 4, 10, 12, 14, 16, 22 };
 
@@ -78,6 +89,16 @@ inline std::int32_t gatherBits(std::uint64_t x)
 inline std::uint64_t mortonCode(const LatticePoint& p)
 {
   return spreadBits(std::uint64_t(p.i)) | spreadBits(std::uint64_t(p.j)) << 1 | spreadBits(std::uint64_t(p.k)) << 2;
+}
+
+inline CodesAround::CodesAround(const LatticePoint& p)
+{
+  for (int step = 0; step < 3; ++step)
+  {
+    this->Along[0][step] = mortonCode({ p.i + step - 1, 0, 0 });
+    this->Along[1][step] = mortonCode({ 0, p.j + step - 1, 0 });
+    this->Along[2][step] = mortonCode({ 0, 0, p.k + step - 1 });
+  }
 }
 
 inline LatticePoint fromMorton(std::uint64_t code)

@@ -54,8 +54,8 @@ private:
 };
 
 /**
- * Asks about points near one another: the blocks found last are remembered, eight, as many as meet in a point. Not for several threads at once. What it
- * asks has to outlive it. Cost: finding each block that is not remembered.
+ * Asks about points near one another: the blocks found last are remembered, 64: a block and all around it have places of their own. Not for several
+ * threads at once. What it asks has to outlive it. Cost: finding each block that is not remembered.
  */
 class NarrowCursor
 {
@@ -74,7 +74,7 @@ public:
 private:
   std::ptrdiff_t placeOf(std::uint64_t block) const
   {
-    const std::size_t slot = block % this->Blocks.size(); // the oddness of its coordinates: neighbours have other slots
+    const std::size_t slot = block % this->Blocks.size(); // by its coordinates' two lowest bits
     if (this->Blocks[slot] != block)
     {
       this->Blocks[slot] = block;
@@ -84,8 +84,8 @@ private:
   }
 
   const NarrowOutside* Outside;
-  mutable std::array<std::uint64_t, 8> Blocks;
-  mutable std::array<std::ptrdiff_t, 8> Places{};
+  mutable std::array<std::uint64_t, 64> Blocks;
+  mutable std::array<std::ptrdiff_t, 64> Places{};
 };
 
 } // namespace silhouette
