@@ -192,7 +192,15 @@ LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const std:
 
 void LatticeLabels::labelByVotes(const std::vector<std::uint16_t>& votes, Execution& execution)
 {
-  this->setSurvivors(leafCells(*this->TheOctree, OctantState::Intersection));
+  // Mostly the shell has no other cells than the octree's intersection octants, all of which it has.
+  if (this->TheOctree->count(OctantState::Intersection, this->TheOctree->lattice.depth) == this->Shell.cells.size())
+  {
+    this->Survivor.assign(this->Shell.cells.size(), 1);
+  }
+  else
+  {
+    this->setSurvivors(leafCells(*this->TheOctree, OctantState::Intersection));
+  }
   const int required = this->TheOctree->viewCount - this->TheOctree->backgroundVotes;
   resizeSideBySide(this->Support, votes.size(), execution);
   resizeSideBySide(this->Inside, votes.size(), execution);
@@ -290,11 +298,6 @@ void LatticeLabels::spread(const SurfaceCrossings& crossings)
 
 void LatticeLabels::setSurvivors(const std::vector<std::uint64_t>& cells)
 {
-  if (cells == this->Shell.cells) // mostly
-  {
-    this->Survivor.assign(cells.size(), 1);
-    return;
-  }
   this->Survivor.assign(this->Shell.cells.size(), 0);
   auto next = cells.begin();
   for (std::size_t cell = 0; cell < this->Shell.cells.size(); ++cell)

@@ -26,6 +26,14 @@ constexpr std::size_t MostKept = std::size_t(1) << 24; ///< pixels: memory for l
 constexpr std::size_t Grain = 8192; ///< triangles worth a thread
 constexpr double NearShare = 1e-6; ///< of the greatest w: nearer points are renderSilhouette()'s to cut off
 
+/** The least whole number that is not below x, but 0 at least and `most` at most. Cutting off, and looking whether anything was: ceil would be a call. */
+int ceiling(double x, int most)
+{
+  const double kept = std::clamp(x, 0.0, double(most));
+  const int whole = int(kept);
+  return whole + (kept > whole);
+}
+
 /** Where outlines enter and leave the covered part of each row. */
 class Windings
 {
@@ -47,17 +55,21 @@ public:
       std::swap(p, q);
       sign = -sign;
     }
-    const double first = std::max(std::ceil(p[1]), 0.0), last = std::min(std::ceil(q[1]), double(this->Height)) - 1.0;
-    if (!(first <= last))
+    if (!(p[1] < q[1]))
     {
       return;
     }
-    this->First = std::min(this->First, int(first));
-    this->Last = std::max(this->Last, int(last));
-    const double slope = (q[0] - p[0]) / (q[1] - p[1]);
-    for (int row = int(first); row <= int(last); ++row)
+    const int first = ceiling(p[1], this->Height), last = ceiling(q[1], this->Height) - 1;
+    if (first > last)
     {
-      const int column = int(std::clamp(std::ceil(p[0] + (row - p[1]) * slope), 0.0, double(this->Width)));
+      return;
+    }
+    this->First = std::min(this->First, first);
+    this->Last = std::max(this->Last, last);
+    const double slope = (q[0] - p[0]) / (q[1] - p[1]);
+    for (int row = first; row <= last; ++row)
+    {
+      const int column = ceiling(p[0] + (row - p[1]) * slope, this->Width);
       this->Steps[std::size_t(row) * this->Stride + std::size_t(column)] += sign;
       this->FirstColumn = std::min(this->FirstColumn, column);
       this->LastColumn = std::max(this->LastColumn, column);
