@@ -123,6 +123,7 @@ void appendRejectedOnce(const Octree& octree, const LatticeViews& views, const s
                                   });
                         }
                       });
+  rejected.erase(std::remove_if(rejected.begin(), rejected.end(), [](const Rejected& one) { return one.view < 0; }), rejected.end());
 }
 
 /** The shell's corners that one view may alone reject: all where the octree was carved from other views; else `votes` are found as well. */
