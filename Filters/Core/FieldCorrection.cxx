@@ -4,6 +4,7 @@
 #include "Error.h"
 #include "FieldRefinement.h"
 #include "Vectorised.h"
+#include "ViewAgreement.h"
 #include "ViewAlignment.h"
 
 #include <algorithm>
@@ -106,47 +107,6 @@ SILHOUETTE_VECTORISED void keepLeast(float* distances, float* least, int rank)
     }
   }
 }
-
-constexpr float GreatestDeviation = 3.0f; ///< standard deviations: views whose contours are further from a point are not heard
-
-/** For the points of a block: the least distance, and how the views that are near it differ from the model, each weighted by how near it is. */
-struct Agreement
-{
-  float least[BlockPoints], sum[BlockPoints] = {}, weights[BlockPoints] = {};
-
-  explicit Agreement(float far) { std::fill(this->least, this->least + BlockPoints, far); }
-
-  void approach(const float* modelled) { leastOf(modelled, this->least); }
-  void hear(const float* modelled, const float* observed, float inverseReach, float limit)
-  {
-    addResiduals(modelled, observed, this->least, inverseReach, limit, this->sum, this->weights);
-  }
-
-private:
-  SILHOUETTE_VECTORISED static void leastOf(const float* modelled, float* least)
-  {
-    for (std::size_t n = 0; n < BlockPoints; ++n)
-    {
-      least[n] = modelled[n] < least[n] ? modelled[n] : least[n];
-    }
-  }
-
-  SILHOUETTE_VECTORISED static void addResiduals(
-    const float* modelled, const float* observed, const float* least, float inverseReach, float limit, float* sum, float* weights)
-  {
-    for (std::size_t n = 0; n < BlockPoints; ++n)
-    {
-      const float x = (modelled[n] - least[n]) * inverseReach, residual = observed[n] - modelled[n];
-      // exp(-x^2 / 2) by the sixteenth power of a polynomial, to 1e-5 of itself as far as it is asked for: a call would be no vector instruction.
-      const float t = x * x * (-1.0f / 32.0f);
-      const float root = 1.0f + t * (1.0f + t * (0.5f + t * (1.0f / 6.0f + t * (1.0f / 24.0f + t * (1.0f / 120.0f)))));
-      const float square = root * root, fourth = square * square, eighth = fourth * fourth;
-      const float weight = x < GreatestDeviation && residual < limit && -residual < limit ? eighth * eighth : 0.0f;
-      sum[n] += weight * residual;
-      weights[n] += weight;
-    }
-  }
-};
 
 /** Lengths that go with the lattice, in its octants. */
 struct Lengths
@@ -429,13 +389,13 @@ private:
   void agree(const std::vector<Near>& near, const float* own, const float* seen, float* agreed) const
   {
     const float far = float(this->Views.reach()), reach = float(this->Options.contourReach * this->Length.proportion);
-    Agreement sums(far);
+    ViewAgreement sums(far);
     for (std::size_t n = 0; n < near.size(); ++n)
     {
       sums.approach(&own[n * BlockPoints]);
     }
     const float deepest = *std::max_element(sums.least, sums.least + BlockPoints);
-    const bool farAreHeard = (far - deepest) / reach < GreatestDeviation;
+    const bool farAreHeard = (far - deepest) / reach < ViewAgreement::GreatestDeviation;
     float others[BlockPoints];
     std::fill(others, others + BlockPoints, far);
     std::size_t next = 0;
