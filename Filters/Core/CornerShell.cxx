@@ -2,6 +2,7 @@
 #include "CornerShell.h"
 
 #include "Bits.h"
+#include "BlockBits.h"
 #include "CodeCursor.h"
 #include "FirstTouch.h"
 #include "RadixSort.h"
@@ -25,23 +26,6 @@ struct Word
   std::uint64_t bits = 0;
 };
 
-/** The points of a block whose coordinate on `axis`, 0 to 3 within it, is `value`. */
-constexpr std::uint64_t slab(int axis, int value)
-{
-  std::uint64_t bits = 0;
-  for (int n = 0; n < 64; ++n)
-  {
-    if (((n >> axis & 1) | (n >> (axis + 3) & 1) << 1) == value)
-    {
-      bits |= std::uint64_t(1) << n;
-    }
-  }
-  return bits;
-}
-
-constexpr std::uint64_t slabs[3][4] = { { slab(0, 0), slab(0, 1), slab(0, 2), slab(0, 3) },
-  { slab(1, 0), slab(1, 1), slab(1, 2), slab(1, 3) }, { slab(2, 0), slab(2, 1), slab(2, 2), slab(2, 3) } };
-
 /**
  * The corners of a block's cells, in the block itself and, bit d of the index for a step on axis d, in the blocks
  * beyond.
@@ -55,10 +39,8 @@ std::array<std::uint64_t, 8> cornersOf(std::uint64_t cells)
     for (int n = 0; n < unit; ++n)
     {
       const std::uint64_t bits = corners[n];
-      const std::uint64_t within =
-        (bits & (slabs[axis][0] | slabs[axis][2])) << unit | (bits & slabs[axis][1]) << 7 * unit;
-      corners[n] = bits | within;
-      corners[n | unit] = (bits & slabs[axis][3]) >> 9 * unit;
+      corners[n] = bits | fromBehind(bits, 0, axis);
+      corners[n | unit] = fromBehind(0, bits, axis);
     }
   }
   return corners;
@@ -71,8 +53,7 @@ std::uint64_t blockBeyond(std::uint64_t block, int steps)
   {
     if (steps >> axis & 1)
     {
-      const std::uint64_t mine = 0x1249249249249249ULL << axis;
-      block = (((block | ~mine) + 1) & mine) | (block & ~mine);
+      besideBlock(block, axis, true, block);
     }
   }
   return block;

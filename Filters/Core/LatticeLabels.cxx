@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LatticeLabels.h"
 
-#include "Bits.h"
 #include "BlockBits.h"
 #include "CornerVotes.h"
 #include "FirstTouch.h"

@@ -30,11 +30,11 @@ std::vector<std::uint64_t> blocksOf(const std::vector<std::uint64_t>& points)
   return blocks;
 }
 
-/** Call `work(generation, index)` for the octants of one state from a generation on, up to another. */
+/** Call `work(generation, index)` for the octants of one state, up to a generation. */
 template <typename Work>
-void forOctants(const Octree& octree, OctantState state, int first, int last, const Work& work)
+void forOctants(const Octree& octree, OctantState state, int last, const Work& work)
 {
-  for (int g = std::max(first, octree.treeGeneration); g <= last; ++g)
+  for (int g = octree.treeGeneration; g <= last; ++g)
   {
     const auto& states = octree.generations[std::size_t(g)].state;
     for (std::size_t i = 0; i < states.size(); ++i)
@@ -72,7 +72,7 @@ void removeSupported(const LatticeLabels& labels, BlockRegions& regions, Sets& s
 {
   const Octree& octree = labels.octree();
   LabelCache cache(labels);
-  forOctants(octree, OctantState::Inside, octree.treeGeneration, octree.lattice.depth,
+  forOctants(octree, OctantState::Inside, octree.lattice.depth,
     [&](int g, std::size_t i)
     {
       const std::uint32_t octant = regions.octant(g, i);
@@ -197,7 +197,7 @@ std::uint64_t fillCavities(LatticeLabels& labels, Execution& execution)
       }
     }
   }
-  forOctants(labels.octree(), OctantState::Background, labels.octree().treeGeneration, regions.coarsest(),
+  forOctants(labels.octree(), OctantState::Background, regions.coarsest(),
     [&](int g, std::size_t i)
     {
       const std::uint32_t octant = regions.octant(g, i);

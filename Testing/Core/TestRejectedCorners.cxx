@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RejectedCorners.h"
+
+#include "CarvingTestCaptures.h"
+#include "EvaluationTestMeshes.h"
+#include "SilhouetteDissent.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+using namespace silhouette;
+using namespace silhouette::test;
+
+namespace
+{
+
+/** By asking every view about every corner, from the shell on, one step after another. */
+std::map<std::uint64_t, int> rejectedOneByOne(const LatticeViews& views, const CornerShell& shell)
+{
+  std::map<std::uint64_t, int> rejected, asked;
+  std::vector<std::uint64_t> front = shell.corners;
+  while (!front.empty())
+  {
+    std::vector<std::uint64_t> next;
+    for (const std::uint64_t corner : front)
+    {
+      if (!asked.emplace(corner, 0).second)
+      {
+        continue;
+      }
+      const int only = dissentAt(views, fromMorton(corner)).only;
+      for (int n = 0; n < 6 && only >= 0; ++n)
+      {
+        const LatticePoint q = neighbourOf(fromMorton(corner), EdgeNeighbours[n]);
+        if (isOfLattice(q, views.lattice().cells()))
+        {
+          next.push_back(mortonCode(q));
+        }
+      }
+      if (only >= 0)
+      {
+        rejected.emplace(corner, only);
+      }
+    }
+    front = next;
+  }
+  return rejected;
+}
+
+} // namespace
+
+/** Whether views abstain or not, may dissent or not, and whoever carved the octree. */
+TEST(RejectedCorners, AreThoseThatOneViewAloneCallsBackground)
+{
+  for (int kind = 0; kind <= 5; ++kind)
+  {
+    Random random(30 + kind);
+    auto captured = viewsOf(torusMesh(48, 24, 0.7, 0.3), swayingRing(8, 120), 120);
+    disturb(captured, kind, random);
+    for (const OutsidePolicy policy : { OutsidePolicy::Border, OutsidePolicy::Unknown, OutsidePolicy::Background })
+    {
+      const PreparedViews prepared = prepareViews(captured, policy);
+      const Octree octree = carveViews(prepared, unitCube(), 5, kind % 3 == 2);
+      const LatticeViews views(prepared, octree.lattice);
+      ThreadedExecution execution(1 + kind % 3);
+      const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
+      const auto expected = rejectedOneByOne(views, shell);
+      EXPECT_GT(expected.size(), 50u);
+      Octree another = octree;
+      another.fingerprint ^= 1;
+      for (const Octree* one : { &octree, static_cast<const Octree*>(&another) })
+      {
+        KnownVotes::Votes votes;
+        const auto found = findRejected(*one, views, shell, votes, execution);
+        EXPECT_EQ(votes != nullptr, one == &octree);
+        std::map<std::uint64_t, int> byCorner;
+        for (std::size_t n = 0; n < found.size(); ++n)
+        {
+          byCorner.emplace(found[n].corner, found[n].view);
+          EXPECT_TRUE(n == 0 || found[n - 1].view < found[n].view ||
+            (found[n - 1].view == found[n].view && found[n - 1].corner < found[n].corner));
+        }
+        EXPECT_EQ(byCorner, expected) << "noise " << kind << ", policy " << int(policy);
+        EXPECT_EQ(found.size(), expected.size());
+      }
+    }
+  }
+}
