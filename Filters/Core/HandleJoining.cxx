@@ -76,7 +76,7 @@ std::vector<CornerSurroundings> surroundings(
           own.beyond |= std::uint32_t(own.corners[std::size_t(a)] < 0 && beyond.insideAt(codes[a])) << a;
         }
         own.parts = topologicalNumbers(labelsAround(own, taken)).inside;
-        // Of the 27 around, the first eight in each coordinate are lowest corners of the cells around.
+        // Lowest corners of the cells around are those of the 27 that are no step ahead on any axis; the cell ahead on all comes first.
         for (int cell = 7; cell >= 0; --cell)
         {
           const LatticePoint o = cornerOffset(cell);
