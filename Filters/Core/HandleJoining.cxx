@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HandleJoining.h"
 
+#include "Bits.h"
 #include "CodeCursor.h"
 #include "Error.h"
+#include "IndicesWhere.h"
 #include "LabelCache.h"
 #include "ShellPaths.h"
 #include "SimplePoint.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <numeric>
+#include <array>
+#include <set>
 #include <string>
 
 namespace silhouette
@@ -29,120 +31,156 @@ void check(const HandleJoiningOptions& options)
   }
 }
 
+/** The points of the 27 around a corner that it is connected with where both are inside, a bit each. */
+constexpr std::uint32_t besideCentre()
+{
+  std::uint32_t points = 0;
+  for (const int n : SolidNeighbours)
+  {
+    points |= std::uint32_t(1) << n;
+  }
+  return points;
+}
+
+/** The corners of the cell whose lowest corner is the first of the 27 points, a bit each. */
+constexpr std::uint32_t cellPoints()
+{
+  std::uint32_t points = 0;
+  for (int n = 0; n < 8; ++n)
+  {
+    points |= std::uint32_t(1) << ((n & 1) + 3 * (n >> 1 & 1) + 9 * (n >> 2));
+  }
+  return points;
+}
+
 /** What lies around a corner. */
-struct CornerSurroundings
+struct Surroundings
 {
   std::array<std::int32_t, 27> corners; ///< of the shell, or -1
-  std::uint32_t beyond = 0;             ///< the points that are no corners of the shell and inside, a bit each
-  std::array<std::uint32_t, 8> cells;   ///< the surviving ones of the shell
-  int cellCount = 0;
-  int parts = 0; ///< of what is inside or taken, that the corner touched then
+  std::uint32_t inShell = 0;            ///< the points that are corners of the shell, a bit each; but for itself
+  std::uint32_t beyond = 0;             ///< the others that are inside
 };
 
-/** Which points around a corner are inside, or taken. */
-Neighbourhood labelsAround(const CornerSurroundings& surroundings, const std::vector<std::uint8_t>& taken)
+/** Finds what lies around corners, fastest in the order of the lattice. Not for several threads at once. */
+class Looking
 {
-  Neighbourhood labels(surroundings.beyond);
-  for (std::size_t n = 0; n < labels.size(); ++n)
+public:
+  explicit Looking(const LatticeLabels& labels)
+    : Labels(labels)
+    , Corners(labels.shell().corners)
+    , Cells(labels.shell().cells)
+    , Beyond(labels)
   {
-    const std::int32_t corner = surroundings.corners[n];
-    labels[n] = n != 13 && (corner >= 0 ? taken[std::size_t(corner)] != 0 : labels[n]);
   }
-  return labels;
-}
 
-/** Of some corners of the shell, each in its place; found side by side, in the order of the lattice, where neighbours are found fastest. */
-std::vector<CornerSurroundings> surroundings(
-  const LatticeLabels& labels, const std::vector<std::uint8_t>& taken, const std::uint32_t* corners, std::size_t count, Execution& execution)
-{
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), std::uint32_t(0));
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return corners[a] < corners[b]; });
-  std::vector<CornerSurroundings> found(count);
-  execution.forRanges(count, 256,
-    [&](std::size_t first, std::size_t last)
+  Surroundings around(std::uint32_t corner)
+  {
+    Surroundings found;
+    const CodesAround codes(this->point(corner));
+    for (int n = 0; n < 27; ++n)
     {
-      CodeCursor shell(labels.shell().corners), cells(labels.shell().cells);
-      LabelCache beyond(labels);
-      for (std::size_t n = first; n < last; ++n)
-      {
-        CornerSurroundings& own = found[order[n]];
-        const std::uint32_t corner = corners[order[n]];
-        const LatticePoint p = fromMorton(labels.shell().corners[corner]);
-        const CodesAround codes(p);
-        for (int a = 0; a < 27; ++a)
-        {
-          own.corners[std::size_t(a)] = std::int32_t(shell.find(codes[a]));
-          own.beyond |= std::uint32_t(own.corners[std::size_t(a)] < 0 && beyond.insideAt(codes[a])) << a;
-        }
-        own.parts = topologicalNumbers(labelsAround(own, taken)).inside;
-        // Lowest corners of the cells around are those of the 27 that are no step ahead on any axis; the cell ahead on all comes first.
-        for (int cell = 7; cell >= 0; --cell)
-        {
-          const LatticePoint o = cornerOffset(cell);
-          const std::ptrdiff_t at = cells.find(codes[o.i + 3 * o.j + 9 * o.k]);
-          if (at >= 0 && labels.isSurvivor(std::size_t(at)))
-          {
-            own.cells[std::size_t(own.cellCount++)] = std::uint32_t(at);
-          }
-        }
-      }
-    });
-  return found;
-}
+      found.corners[std::size_t(n)] = n != 13 ? std::int32_t(this->Corners.find(codes[n])) : -1;
+      const bool isCorner = found.corners[std::size_t(n)] >= 0;
+      found.inShell |= std::uint32_t(isCorner) << n;
+      found.beyond |= std::uint32_t(n != 13 && !isCorner && this->Beyond.insideAt(codes[n])) << n;
+    }
+    return found;
+  }
 
+  /** The points around that are corners of surviving cells around, a bit each; none where fewer than two of these survive. */
+  std::uint32_t survivorsAround(std::uint32_t corner)
+  {
+    const CodesAround codes(this->point(corner));
+    std::uint32_t points = 0;
+    int cells = 0;
+    for (int cell = 0; cell < 8; ++cell)
+    {
+      // Lowest corners of the cells around are those of the 27 that are no step ahead on any axis.
+      const LatticePoint o = cornerOffset(cell);
+      const int lowest = o.i + 3 * o.j + 9 * o.k;
+      const std::ptrdiff_t at = this->Cells.find(codes[lowest]);
+      if (at >= 0 && this->Labels.isSurvivor(std::size_t(at)))
+      {
+        ++cells;
+        points |= cellPoints() << lowest;
+      }
+    }
+    return cells < 2 ? 0 : points;
+  }
+
+private:
+  LatticePoint point(std::uint32_t corner) const { return fromMorton(this->Labels.shell().corners[corner]); }
+
+  const LatticeLabels& Labels;
+  CodeCursor Corners;
+  CodeCursor Cells;
+  LabelCache Beyond;
+};
+
+/**
+ * The growth comes to the corners one after another, the greatest value first. Nearly all of them touch one part of what is inside by then and are taken, and what
+ * a corner touches depends on the corners that come before it and are taken; so all that may be different is found side by side, as if all were taken, and only
+ * these corners, and those around one that is not taken after all, are come to in turn.
+ */
 class Joining
 {
 public:
-  Joining(const LatticeLabels& labels, int loop)
+  Joining(const LatticeLabels& labels, float least, int loop, Execution& execution)
     : Labels(labels)
+    , Least(least)
     , Loop(loop)
-    , Taken(labels.inside())
-    , From(Taken.size(), Nobody)
-    , Paths(labels.shell(), Taken)
-    , Changed(Taken.size(), 0)
+    , States(labels.inside().size())
+    , Paths(labels.shell())
+    , Look(labels)
+    , Run(execution)
   {
+    execution.forRanges(this->States.size(), 4096,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t c = first; c < last; ++c)
+        {
+          this->States[c] = this->Labels.inside()[c] ? Inside : this->isAllowed(std::uint32_t(c)) && this->mayBeTaken(std::uint32_t(c)) ? InTurn : Outside;
+        }
+      });
   }
 
-  /** The corners' surroundings now. */
-  std::vector<CornerSurroundings> look(const std::uint32_t* corners, std::size_t count, Execution& execution)
+  /** Take corners that the field allows, unless they join parts that meet anyway; what they join beyond that is noted. */
+  void grow()
   {
-    ++this->Looks;
-    return surroundings(this->Labels, this->Taken, corners, count, execution);
+    Queue queue = this->queueOf([&](std::uint32_t corner, Looking& look)
+      { return this->States[corner] == InTurn && this->partsAround(corner, look).count != 1; });
+    this->come(std::move(queue), [&](std::uint32_t corner)
+      {
+        const Parts parts = this->partsAround(corner, this->Look);
+        if (parts.count == 0 || this->anyMeet(corner, parts))
+        {
+          this->States[corner] = Outside;
+          return true;
+        }
+        if (parts.count > 1)
+        {
+          this->addJoint(corner, parts);
+        }
+        return false;
+      });
   }
 
-  /** Take a corner that the field allows, unless it joins parts that meet anyway; what it joins beyond that is noted. */
-  void grow(std::uint32_t corner, const CornerSurroundings& around)
+  /** Further outside, take corners that join survivors which touch in them and do not meet otherwise. */
+  void join()
   {
-    if (!this->mayTouch(corner, around, 1))
-    {
-      return;
-    }
-    const auto parts = this->partsAround(around, {});
-    if (!parts.empty() && !this->anyMeet(parts))
-    {
-      this->take(corner, around, parts);
-    }
-  }
-
-  /** Take a corner if it joins survivors that touch in it and do not meet otherwise. */
-  void join(std::uint32_t corner, const CornerSurroundings& around)
-  {
-    if (around.cellCount < 2 || !this->mayTouch(corner, around, 2))
-    {
-      return;
-    }
-    std::vector<std::uint32_t> ends;
-    for (int n = 0; n < around.cellCount; ++n)
-    {
-      const auto& corners = this->Labels.shell().cellCorners[around.cells[std::size_t(n)]];
-      ends.insert(ends.end(), corners.begin(), corners.end());
-    }
-    const auto parts = this->partsAround(around, ends);
-    if (parts.size() > 1 && !this->anyMeet(parts))
-    {
-      this->take(corner, around, parts);
-    }
+    Queue queue = this->queueOf([&](std::uint32_t corner, Looking& look)
+      { return this->waits(corner) && this->partsAround(corner, look).count > 1; });
+    this->come(std::move(queue), [&](std::uint32_t corner)
+      {
+        const Parts parts = this->partsAround(corner, this->Look);
+        if (parts.count < 2 || this->anyMeet(corner, parts))
+        {
+          return false;
+        }
+        this->States[corner] = InTurn;
+        this->addJoint(corner, parts);
+        return true;
+      });
   }
 
   /** Shell corners, each once. */
@@ -154,39 +192,127 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t Nobody = 0xffffffffu;
-
-  /** False where the corner touched fewer parts when its surroundings were looked at, and none of these has changed since. */
-  bool mayTouch(std::uint32_t corner, const CornerSurroundings& around, int parts) const
+  enum State : std::uint8_t
   {
-    return around.parts >= parts || this->Changed[corner] == this->Looks;
+    Outside,
+    Inside,
+    InTurn ///< taken when the growth comes to it
+  };
+
+  /** A corner of each part around one; none where a part has no corner that counts. */
+  struct Parts
+  {
+    std::array<std::uint32_t, 26> corners;
+    int count = 0;
+  };
+
+  /** Does the growth come to `a` before `b`? */
+  struct Earlier
+  {
+    const std::vector<float>& support;
+
+    bool operator()(std::uint32_t a, std::uint32_t b) const
+    {
+      return this->support[a] != this->support[b] ? this->support[a] > this->support[b] : a < b;
+    }
+  };
+  using Queue = std::set<std::uint32_t, Earlier>;
+
+  Earlier earlier() const { return { this->Labels.support() }; }
+  bool isAllowed(std::uint32_t corner) const { return this->Labels.support()[corner] > this->Least; }
+  /** May a corner that is not inside be taken at all? */
+  bool mayBeTaken(std::uint32_t corner) const
+  {
+    return !this->Labels.octree().lattice.onBorder(fromMorton(this->Labels.shell().corners[corner]));
+  }
+  /** Is a corner outside, further than the field allows, and may be taken? */
+  bool waits(std::uint32_t corner) const { return this->States[corner] == Outside && !this->isAllowed(corner) && this->mayBeTaken(corner); }
+  /** Is a corner inside or taken when the growth comes to `now`? */
+  bool isTaken(std::uint32_t corner, std::uint32_t now) const
+  {
+    return this->States[corner] == Inside || (this->States[corner] == InTurn && this->earlier()(corner, now));
   }
 
-  /** A corner, of `among` if that is not empty, of each part around a corner; nothing where a part has none. */
-  std::vector<std::uint32_t> partsAround(const CornerSurroundings& surroundings, const std::vector<std::uint32_t>& among)
+  /** The corners for which a test holds, which may be asked at the same time. */
+  template <typename Test>
+  Queue queueOf(const Test& test)
   {
-    const auto& around = surroundings.corners;
-    const TopologicalNumbers numbers = topologicalNumbers(labelsAround(surroundings, this->Taken));
-    std::vector<std::uint32_t> parts(numbers.inside, Nobody); // a corner of each, of the shell
-    for (int n = 0; n < 27; ++n)
+    const auto corners = indicesWhereTests(this->States.size(), 4096, this->Run,
+      [&] { return [&, look = Looking(this->Labels)](std::size_t corner) mutable { return test(std::uint32_t(corner), look); }; });
+    std::vector<std::uint32_t> order(corners.begin(), corners.end());
+    std::sort(order.begin(), order.end(), this->earlier());
+    return Queue(order.begin(), order.end(), this->earlier());
+  }
+
+  /** Come to the corners in turn, and to all around one, later in turn, that is not what it was taken for, as `visit(corner)` tells. */
+  template <typename Visit>
+  void come(Queue queue, const Visit& visit)
+  {
+    for (std::size_t visited = 0; !queue.empty(); ++visited)
     {
-      const bool counts = numbers.insideComponent[n] >= 0 && around[n] >= 0 && isBesideCentre(n) &&
-        (among.empty() || std::find(among.begin(), among.end(), std::uint32_t(around[n])) != among.end());
-      if (counts && parts[numbers.insideComponent[n]] == Nobody)
+      if (visited % 4096 == 0)
       {
-        parts[numbers.insideComponent[n]] = std::uint32_t(around[n]);
+        this->Run.checkpoint(0.5);
+      }
+      const std::uint32_t corner = *queue.begin();
+      queue.erase(queue.begin());
+      const State before = this->States[corner];
+      if (!visit(corner))
+      {
+        continue;
+      }
+      for (const std::int32_t other : this->Look.around(corner).corners)
+      {
+        if (other >= 0 && this->isOfKind(std::uint32_t(other), before) && this->earlier()(corner, std::uint32_t(other)))
+        {
+          queue.insert(std::uint32_t(other));
+        }
       }
     }
-    return std::count(parts.begin(), parts.end(), Nobody) > 0 ? std::vector<std::uint32_t>() : parts;
   }
 
-  bool anyMeet(const std::vector<std::uint32_t>& parts)
+  /** Does the growth still have to come to a corner as it came to one that was in this state? */
+  bool isOfKind(std::uint32_t corner, State state) const { return state == InTurn ? this->States[corner] == InTurn : this->waits(corner); }
+
+  /** When the growth comes to a corner: the parts of what is inside or taken that it touches; further outside than the field allows, if survivors in it belong to them. */
+  Parts partsAround(std::uint32_t corner, Looking& look) const
   {
-    for (std::size_t a = 0; a < parts.size(); ++a)
+    Parts parts;
+    const std::uint32_t among = this->isAllowed(corner) ? ~std::uint32_t(0) : look.survivorsAround(corner);
+    if (among == 0)
     {
-      for (std::size_t b = a + 1; b < parts.size(); ++b)
+      return parts;
+    }
+    const Surroundings around = look.around(corner);
+    std::uint32_t taken = around.beyond;
+    for (std::uint32_t left = around.inShell; left != 0; left &= left - 1)
+    {
+      const int n = lowestBit(left);
+      taken |= std::uint32_t(this->isTaken(std::uint32_t(around.corners[std::size_t(n)]), corner)) << n;
+    }
+    std::array<std::uint32_t, 26> members;
+    const int count = solidParts(Neighbourhood(taken), members);
+    for (int part = 0; part < count; ++part)
+    {
+      const std::uint32_t counting = members[std::size_t(part)] & around.inShell & among & besideCentre();
+      if (counting == 0)
       {
-        if (this->Paths.meet(parts[a], parts[b], this->Loop))
+        return parts; // none
+      }
+      parts.corners[std::size_t(part)] = std::uint32_t(around.corners[std::size_t(lowestBit(counting))]);
+    }
+    parts.count = count;
+    return parts;
+  }
+
+  bool anyMeet(std::uint32_t corner, const Parts& parts)
+  {
+    for (int a = 0; a < parts.count; ++a)
+    {
+      for (int b = a + 1; b < parts.count; ++b)
+      {
+        if (this->Paths.meet(parts.corners[std::size_t(a)], parts.corners[std::size_t(b)], this->Loop,
+              [&](std::uint32_t other) { return this->isTaken(other, corner); }))
         {
           return true;
         }
@@ -195,37 +321,26 @@ private:
     return false;
   }
 
-  void take(std::uint32_t corner, const CornerSurroundings& around, const std::vector<std::uint32_t>& parts)
+  /** Note a corner and those that lead from it to the solid: from each the first part that it touched. */
+  void addJoint(std::uint32_t corner, const Parts& parts)
   {
-    this->Taken[corner] = 1;
-    for (const std::int32_t other : around.corners)
+    this->Joints.push_back(corner);
+    for (int n = 0; n < parts.count; ++n)
     {
-      if (other >= 0)
+      for (std::uint32_t part = parts.corners[std::size_t(n)]; this->States[part] != Inside; part = this->partsAround(part, this->Look).corners[0])
       {
-        this->Changed[std::size_t(other)] = this->Looks;
-      }
-    }
-    this->From[corner] = parts[0];
-    if (parts.size() > 1)
-    {
-      this->Joints.push_back(corner);
-      for (std::uint32_t part : parts)
-      {
-        for (; part != Nobody && !this->Labels.inside()[part]; part = this->From[part])
-        {
-          this->Joints.push_back(part);
-        }
+        this->Joints.push_back(part);
       }
     }
   }
 
   const LatticeLabels& Labels;
+  float Least;
   int Loop;
-  std::vector<std::uint8_t> Taken;
-  std::vector<std::uint32_t> From; ///< towards the solid
+  std::vector<State> States;
   ShellPaths Paths;
-  std::vector<std::uint32_t> Changed; ///< for each corner the last look after which one around it was taken
-  std::uint32_t Looks = 0;
+  Looking Look;
+  Execution& Run;
   std::vector<std::uint32_t> Joints;
 };
 
@@ -240,35 +355,18 @@ std::vector<std::uint64_t> handleJoints(
   const LatticeLabels& labels, double deficit, const HandleJoiningOptions& options, Execution& execution)
 {
   check(options);
-  const float least = float(-options.reach * deficit);
-  const auto& shell = labels.shell();
-  std::vector<std::uint32_t> corners;
-  for (std::uint32_t c = 0; labels.field() && options.joinHandles && c < shell.corners.size(); ++c)
+  if (!labels.field() || !options.joinHandles)
   {
-    if (!labels.inside()[c] && !labels.octree().lattice.onBorder(fromMorton(shell.corners[c])))
-    {
-      corners.push_back(c);
-    }
+    return {};
   }
-  std::stable_sort(corners.begin(), corners.end(),
-    [&](std::uint32_t a, std::uint32_t b) { return labels.support()[a] > labels.support()[b]; });
-  Joining joining(labels, loopSteps(labels.octree().lattice, options));
-  constexpr std::size_t Batch = 1 << 17; // what lies around so many is remembered, some 20 MB
-  for (std::size_t first = 0; first < corners.size(); first += Batch)
-  {
-    execution.checkpoint(double(first) / double(corners.size()));
-    const auto around = joining.look(&corners[first], std::min(Batch, corners.size() - first), execution);
-    for (std::size_t n = 0; n < around.size(); ++n)
-    {
-      const std::uint32_t corner = corners[first + n];
-      labels.support()[corner] > least ? joining.grow(corner, around[n]) : joining.join(corner, around[n]);
-    }
-  }
+  Joining joining(labels, float(-options.reach * deficit), loopSteps(labels.octree().lattice, options), execution);
+  joining.grow();
+  joining.join();
   execution.checkpoint(1.0);
   std::vector<std::uint64_t> joints;
   for (const std::uint32_t corner : joining.joints())
   {
-    joints.push_back(shell.corners[corner]);
+    joints.push_back(labels.shell().corners[corner]);
   }
   return joints;
 }

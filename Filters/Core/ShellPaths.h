@@ -5,30 +5,75 @@
  */
 #pragma once
 
+#include "CodeCursor.h"
 #include "CornerShell.h"
+#include "SimplePoint.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace silhouette
 {
 
-/** Are two of the 27 points around a corner, by their numbers, joined by a lattice edge or the diagonal of a lattice square? */
-bool isBesideCentre(int n);
-
 class ShellPaths
 {
 public:
-  /** `taken` is told apart from the rest by not being 0, a value for each corner of the shell. Both have to stay while this is used. */
-  ShellPaths(const CornerShell& shell, const std::vector<std::uint8_t>& taken);
+  /** `shell` is not copied and has to outlive this. */
+  explicit ShellPaths(const CornerShell& shell)
+    : Shell(shell)
+    , Cursor(shell.corners)
+    , Met(shell.corners.size(), 0)
+  {
+  }
 
-  /** Is there a way of at most `steps` steps (18-neighbourhood) through taken corners? Cost: the corners within that many steps. */
-  bool meet(std::uint32_t a, std::uint32_t b, int steps);
+  /**
+   * Is there a way of at most `steps` steps (18-neighbourhood) from a to b through corners that `isTaken(corner)` tells apart? It is not asked about a.
+   * Cost: the corners within half that many steps of either, or those joined to one of them.
+   */
+  template <typename IsTaken>
+  bool meet(std::uint32_t a, std::uint32_t b, int steps, const IsTaken& isTaken)
+  {
+    if (a == b || steps < 1 || !isTaken(b))
+    {
+      return a == b && steps >= 0;
+    }
+    this->Call += 2; // and one more for what is reached from b
+    std::vector<std::uint32_t> ends[2] = { { a }, { b } }, next;
+    this->Met[a] = this->Call;
+    this->Met[b] = this->Call + 1;
+    for (int step = 1; step <= steps && !ends[0].empty() && !ends[1].empty(); ++step)
+    {
+      const std::uint32_t side = ends[1].size() < ends[0].size() ? 1 : 0;
+      next.clear();
+      for (const std::uint32_t corner : ends[side])
+      {
+        const CodesAround codes(fromMorton(this->Shell.corners[corner])); // beyond the lattice they are no corner's
+        for (const int n : SolidNeighbours)
+        {
+          const std::ptrdiff_t found = this->Cursor.find(codes[n]);
+          const auto other = std::uint32_t(found);
+          if (found < 0 || this->Met[other] == this->Call + side || !isTaken(other))
+          {
+            continue;
+          }
+          if (this->Met[other] == this->Call + 1 - side)
+          {
+            return true;
+          }
+          this->Met[other] = this->Call + side;
+          next.push_back(other);
+        }
+      }
+      ends[side].swap(next);
+    }
+    return false;
+  }
 
 private:
   const CornerShell& Shell;
-  const std::vector<std::uint8_t>& Taken;
-  std::vector<std::uint32_t> Seen; ///< the last call that met the corner
+  CodeCursor Cursor;
+  std::vector<std::uint32_t> Met; ///< the last call that met the corner, and from which end
   std::uint32_t Call = 0;
 };
 

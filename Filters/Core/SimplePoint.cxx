@@ -77,21 +77,27 @@ int components(Members members, int step, const Name& name)
 
 } // namespace
 
+int solidParts(const Neighbourhood& labels, std::array<std::uint32_t, 26>& parts)
+{
+  // The geodesic 18-neighbourhood of order 2.
+  const auto solid = Members(labels.to_ulong());
+  return components(grow(around(solid, 2), around(solid, 3), 2), 2, [&](Members part, int number) { parts[std::size_t(number)] = part; });
+}
+
 TopologicalNumbers topologicalNumbers(const Neighbourhood& labels)
 {
   TopologicalNumbers numbers;
-  const auto solid = Members(labels.to_ulong());
-  const Members hollow = ~solid & All;
-  // Inside: the geodesic 18-neighbourhood of order 2.
+  std::array<std::uint32_t, 26> parts;
+  numbers.inside = solidParts(labels, parts);
   numbers.insideComponent.fill(-1);
-  numbers.inside = components(grow(around(solid, 2), around(solid, 3), 2), 2,
-    [&](Members part, int number)
+  for (int number = 0; number < numbers.inside; ++number)
+  {
+    for (Members part = parts[std::size_t(number)]; part != 0; part &= part - 1)
     {
-      for (; part != 0; part &= part - 1)
-      {
-        numbers.insideComponent[lowestBit(part)] = std::int8_t(number);
-      }
-    });
+      numbers.insideComponent[lowestBit(part)] = std::int8_t(number);
+    }
+  }
+  const Members hollow = ~Members(labels.to_ulong()) & All;
   // Outside: the geodesic 6-neighbourhood of order 3, the first two orders within the 18-neighbourhood.
   const Members second = grow(around(hollow, 1), around(hollow, 2), 1);
   numbers.outside = components(grow(second, around(hollow, 3), 1), 1, [](Members, int) {});

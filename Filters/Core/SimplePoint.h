@@ -17,6 +17,9 @@ namespace silhouette
 /** Labels of the 27 lattice points around a corner: index (dx + 1) + 3 (dy + 1) + 9 (dz + 1), true is inside. */
 using Neighbourhood = std::bitset<27>;
 
+/** The numbers of the 18 points around that an inside centre is connected with where they are inside, too. */
+inline constexpr int SolidNeighbours[18] = { 1, 3, 4, 5, 7, 9, 10, 11, 12, 14, 15, 16, 17, 19, 21, 22, 23, 25 };
+
 /** What labelling the centre inside would do. */
 struct TopologicalNumbers
 {
@@ -27,6 +30,9 @@ struct TopologicalNumbers
 };
 
 TopologicalNumbers topologicalNumbers(const Neighbourhood& labels);
+
+/** The components that TopologicalNumbers::inside counts, the points of each as bits. Returns how many there are. */
+int solidParts(const Neighbourhood& labels, std::array<std::uint32_t, 26>& parts);
 
 /** True where both numbers are 1. */
 bool isSimple(const TopologicalNumbers& numbers);

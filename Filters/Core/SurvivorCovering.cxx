@@ -372,12 +372,12 @@ private:
   {
     const std::uint32_t from = this->insideNear(bridge.front()), to = this->insideNear(bridge.back());
     return from == None || to == None || this->component(from) != this->component(to) ||
-      !paths.meet(from, to, this->Loop);
+      !paths.meet(from, to, this->Loop, [&](std::uint32_t corner) { return this->inside(corner); });
   }
 
   void build(const std::vector<Bridge>& bridges)
   {
-    ShellPaths paths(this->shell(), this->Labels.inside());
+    ShellPaths paths(this->shell());
     for (const auto& bridge : bridges)
     {
       if (!this->isNeeded(bridge, paths))

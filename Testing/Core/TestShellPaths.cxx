@@ -27,7 +27,8 @@ TEST(ShellPaths, FindsTheLengthOfTheShortestWay)
   {
     one = random.uniform() < 0.35;
   }
-  ShellPaths paths(shell, taken);
+  ShellPaths paths(shell);
+  const auto isTaken = [&](std::uint32_t corner) { return taken[corner] != 0; };
   int far = 0;
   for (std::uint32_t a = 0; a < count; ++a)
   {
@@ -55,8 +56,8 @@ TEST(ShellPaths, FindsTheLengthOfTheShortestWay)
       if (taken[b])
       {
         far += steps[b] > 3 && steps[b] < 1000;
-        EXPECT_EQ(paths.meet(a, b, 3), steps[b] <= 3);
-        EXPECT_EQ(paths.meet(a, b, 500), steps[b] < 1000);
+        EXPECT_EQ(paths.meet(a, b, 3, isTaken), steps[b] <= 3);
+        EXPECT_EQ(paths.meet(a, b, 500, isTaken), steps[b] < 1000);
       }
     }
   }
