@@ -252,7 +252,7 @@ std::vector<DistanceMap> FieldViews::distances(const Mesh& mesh, Execution& exec
     {
       for (std::size_t i = first; i < last; ++i)
       {
-        maps[i] = this->distances(int(i), renderer.render(i).pixels.data());
+        maps[i] = this->distances(int(i), imageOf(renderer.render(i)).pixels.data());
       }
     });
   return maps;

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <mutex>
 #include <utility>
 
@@ -22,16 +21,54 @@ namespace silhouette
 namespace
 {
 
-constexpr std::size_t MostKept = std::size_t(1) << 24; ///< pixels: memory for larger images is given back
 constexpr std::size_t Grain = 8192; ///< triangles worth a thread
 constexpr double NearShare = 1e-6; ///< of the greatest w: nearer points are renderSilhouette()'s to cut off
 
-/** The least whole number that is not below x, but 0 at least and `most` at most. Cutting off, and looking whether anything was: ceil would be a call. */
-int ceiling(double x, int most)
+constexpr std::size_t Batch = 128; ///< segments that are projected together
+
+/** Some segments of an outline: their ends in the world, and then where each crosses the middles of rows. */
+struct SegmentBatch
 {
-  const double kept = std::clamp(x, 0.0, double(most));
-  const int whole = int(kept);
-  return whole + (kept > whole);
+  std::size_t count = 0;
+  double ends[2][3][Batch];       ///< x, y, z
+  double low[2][Batch];           ///< px: the end with the lesser v, u and v
+  double slope[Batch];            ///< columns for a row
+  std::int32_t first[Batch], last[Batch]; ///< rows; the last one below the first where none is crossed
+  std::int32_t change[Batch];     ///< of the winding, to the right of the segment
+};
+
+/** The least whole number that is not below x, but 0 at least and `most` at most. Cutting off, and looking whether anything was: ceil would be a call. */
+inline std::int32_t ceiling(double x, double most)
+{
+  const double notNegative = x > 0.0 ? x : 0.0, kept = notNegative < most ? notNegative : most;
+  const auto whole = std::int32_t(kept);
+  return whole + std::int32_t(kept > whole);
+}
+
+/** A row's middle is crossed from the segment's end with the lesser v on, up to but not including the other. */
+SILHOUETTE_VECTORISED void projectSegments(const double (&projection)[12], double height, SegmentBatch& batch)
+{
+  for (std::size_t n = 0; n < batch.count; ++n)
+  {
+    double u[2], v[2];
+    for (int end = 0; end < 2; ++end)
+    {
+      const double x = batch.ends[end][0][n], y = batch.ends[end][1][n], z = batch.ends[end][2][n];
+      const double* p = projection;
+      const double w = ((p[8] * x + p[9] * y) + p[10] * z) + p[11];
+      u[end] = (((p[0] * x + p[1] * y) + p[2] * z) + p[3]) / w;
+      v[end] = (((p[4] * x + p[5] * y) + p[6] * z) + p[7]) / w;
+    }
+    const bool turned = v[1] < v[0];
+    const double lowU = turned ? u[1] : u[0], lowV = turned ? v[1] : v[0];
+    const double highU = turned ? u[0] : u[1], highV = turned ? v[0] : v[1];
+    batch.low[0][n] = lowU;
+    batch.low[1][n] = lowV;
+    batch.slope[n] = (highU - lowU) / (highV - lowV); // the divisor is 0 for none that crosses a row
+    batch.first[n] = ceiling(lowV, height);
+    batch.last[n] = ceiling(highV, height) - 1;
+    batch.change[n] = turned ? -batch.change[n] : batch.change[n];
+  }
 }
 
 /** Where outlines enter and leave the covered part of each row. */
@@ -41,86 +78,93 @@ public:
   Windings(int width, int height)
     : Width(width)
     , Height(height)
-    , Stride(std::size_t(width) + 1)
-    , Steps(kept())
+    , Starts(std::size_t(height) + 1, 0)
   {
-    this->Steps.resize(std::max(this->Steps.size(), this->Stride * std::size_t(height)), 0);
   }
 
-  /** The row's middle is crossed from the lower row's end (in v) on, up to but not including the upper's. */
-  void add(Vector2 p, Vector2 q, int sign)
+  void add(const SegmentBatch& batch)
   {
-    if (q[1] < p[1])
+    for (std::size_t n = 0; n < batch.count; ++n)
     {
-      std::swap(p, q);
-      sign = -sign;
-    }
-    if (!(p[1] < q[1]))
-    {
-      return;
-    }
-    const int first = ceiling(p[1], this->Height), last = ceiling(q[1], this->Height) - 1;
-    if (first > last)
-    {
-      return;
-    }
-    this->First = std::min(this->First, first);
-    this->Last = std::max(this->Last, last);
-    const double slope = (q[0] - p[0]) / (q[1] - p[1]);
-    for (int row = first; row <= last; ++row)
-    {
-      const int column = ceiling(p[0] + (row - p[1]) * slope, this->Width);
-      this->Steps[std::size_t(row) * this->Stride + std::size_t(column)] += sign;
-      this->FirstColumn = std::min(this->FirstColumn, column);
-      this->LastColumn = std::max(this->LastColumn, column);
+      for (std::int32_t row = batch.first[n]; row <= batch.last[n]; ++row)
+      {
+        const std::int32_t column = ceiling(batch.low[0][n] + (row - batch.low[1][n]) * batch.slope[n], this->Width);
+        this->Crossings.push_back({ row, { column, batch.change[n] } });
+        ++this->Starts[std::size_t(row)];
+      }
     }
   }
 
   /** Once, and last. */
-  void fill(BinaryImage& image)
+  SilhouetteRuns runs()
   {
-    for (int row = this->First; row <= this->Last; ++row)
+    const std::vector<Turn> turns = this->byRows();
+    SilhouetteRuns runs{ this->Width, this->Height, {}, { 0 } };
+    for (int row = 0; row < this->Height; ++row)
     {
-      std::int16_t* steps = &this->Steps[std::size_t(row) * this->Stride];
-      std::uint8_t* pixels = &image.pixels[std::size_t(row) * std::size_t(this->Width)];
-      std::int16_t count = 0;
-      const int end = std::min(this->LastColumn + 1, this->Width);
-      for (int column = this->FirstColumn; column < end; ++column)
+      const auto last = turns.begin() + this->Starts[std::size_t(row) + 1];
+      std::int32_t winding = 0, begin = 0;
+      for (auto turn = turns.begin() + this->Starts[std::size_t(row)]; turn != last;)
       {
-        std::uint64_t ahead[2];
-        while (column + 8 < end && (std::memcpy(ahead, steps + column, 16), (ahead[0] | ahead[1]) == 0))
+        const std::int32_t column = turn->column;
+        const bool wasCovered = winding != 0;
+        for (; turn != last && turn->column == column; ++turn)
         {
-          std::memset(pixels + column, count != 0, 8); // no outline here
-          column += 8;
+          winding += turn->change;
         }
-        count = std::int16_t(count + steps[column]);
-        pixels[column] = count != 0;
+        if (wasCovered && winding == 0)
+        {
+          runs.runs.push_back({ begin, column });
+        }
+        begin = wasCovered ? begin : column;
       }
-      std::fill(pixels + end, pixels + this->Width, std::uint8_t(count != 0)); // of an outline that is not closed
-      std::fill(steps + this->FirstColumn, steps + this->LastColumn + 1, std::int16_t(0));
+      if (winding != 0 && begin < this->Width) // an outline that is not closed
+      {
+        runs.runs.push_back({ begin, this->Width });
+      }
+      runs.firstOfRow.push_back(runs.runs.size());
     }
-    if (this->Steps.size() > MostKept)
-    {
-      std::vector<std::int16_t>().swap(this->Steps);
-    }
+    return runs;
   }
 
 private:
-  /** The memory, which serves the thread's next image. */
-  static std::vector<std::int16_t>& kept()
+  struct Turn
   {
-    thread_local std::vector<std::int16_t> steps;
-    return steps;
+    std::int32_t column; ///< the first that is affected
+    std::int32_t change;
+  };
+  struct Crossing
+  {
+    std::int32_t row;
+    Turn turn;
+  };
+
+  /** The turns of each row by ascending columns, from its start on. */
+  std::vector<Turn> byRows()
+  {
+    std::ptrdiff_t sum = 0;
+    for (std::ptrdiff_t& start : this->Starts)
+    {
+      sum += std::exchange(start, sum);
+    }
+    std::vector<Turn> turns(this->Crossings.size());
+    std::vector<std::ptrdiff_t> next = this->Starts;
+    for (const Crossing& crossing : this->Crossings)
+    {
+      turns[std::size_t(next[std::size_t(crossing.row)]++)] = crossing.turn;
+    }
+    for (int row = 0; row < this->Height; ++row)
+    {
+      std::sort(turns.begin() + this->Starts[std::size_t(row)], turns.begin() + this->Starts[std::size_t(row) + 1],
+        [](const Turn& a, const Turn& b) { return a.column < b.column; });
+    }
+    return turns;
   }
 
   int Width;
   int Height;
-  std::size_t Stride;
-  int First = 1 << 30;
-  int Last = -1;
-  int FirstColumn = 1 << 30;
-  int LastColumn = -1;
-  std::vector<std::int16_t>& Steps; ///< all 0 before and after
+  std::vector<Crossing> Crossings;
+  std::vector<std::ptrdiff_t> Starts; ///< how many each row has; then where they start
 };
 
 Vector3 homogeneousPixel(const Projection& projection, const Vector3& point)
@@ -326,26 +370,39 @@ void OutlineRenderer::findOutlines(std::size_t first, std::size_t last, Executio
   std::move(outlines.ofCameras.begin(), outlines.ofCameras.end(), this->Outlines.begin() + std::ptrdiff_t(first));
 }
 
-BinaryImage OutlineRenderer::render(std::size_t n) const
+SilhouetteRuns OutlineRenderer::render(std::size_t n) const
 {
   const ImageCamera& camera = this->Cameras[n];
   if (this->InFront[n] == 0)
   {
-    return renderSilhouette(this->TheMesh, camera.projection, camera.width, camera.height);
+    return runsOf(renderSilhouette(this->TheMesh, camera.projection, camera.width, camera.height));
   }
-  const auto pixelOf = [&](std::int32_t point)
+  double projection[12];
+  for (int entry = 0; entry < 12; ++entry)
   {
-    const Vector3 h = homogeneousPixel(camera.projection, this->TheMesh.points[std::size_t(point)]);
-    return Vector2(h[0] / h[2], h[1] / h[2]);
-  };
-  BinaryImage image{ camera.width, camera.height, std::vector<std::uint8_t>(std::size_t(camera.width) * camera.height, 0) };
+    projection[entry] = camera.projection(entry / 4, entry % 4);
+  }
   Windings windings(camera.width, camera.height);
-  for (const OutlineSegment& segment : this->Outlines[n])
+  SegmentBatch batch;
+  const auto& segments = this->Outlines[n];
+  for (std::size_t first = 0; first < segments.size(); first += Batch)
   {
-    windings.add(pixelOf(segment.from), pixelOf(segment.to), segment.sign);
+    batch.count = std::min(Batch, segments.size() - first);
+    for (std::size_t i = 0; i < batch.count; ++i)
+    {
+      const OutlineSegment& segment = segments[first + i];
+      const Vector3 &from = this->TheMesh.points[std::size_t(segment.from)], &to = this->TheMesh.points[std::size_t(segment.to)];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        batch.ends[0][axis][i] = from[axis];
+        batch.ends[1][axis][i] = to[axis];
+      }
+      batch.change[i] = segment.sign;
+    }
+    projectSegments(projection, camera.height, batch);
+    windings.add(batch);
   }
-  windings.fill(image);
-  return image;
+  return windings.runs();
 }
 
 } // namespace silhouette

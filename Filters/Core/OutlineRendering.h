@@ -7,6 +7,7 @@
 
 #include "Execution.h"
 #include "Mesh.h"
+#include "SilhouetteRuns.h"
 #include "View.h"
 
 #include <cstdint>
@@ -43,9 +44,9 @@ public:
   /**
    * What the n-th camera sees: the silhouette as renderSilhouette() makes it, except that a pixel whose centre lies on an outline to within rounding may
    * differ. The mesh has to be closed and oriented; where some of it lies behind the camera or near its plane, renderSilhouette() is called. Cost: the
-   * rows that outlines cross, and a pass over the pixels around them. Several may be rendered at a time.
+   * outlines' segments, and the rows that they cross. Several may be rendered at a time.
    */
-  BinaryImage render(std::size_t n) const;
+  SilhouetteRuns render(std::size_t n) const;
 
 private:
   void requireProjectable();

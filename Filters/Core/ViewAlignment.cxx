@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewAlignment.h"
 
-#include "Bits.h"
 #include "OutlineRendering.h"
 
 #include <Eigen/Cholesky>
@@ -24,8 +23,8 @@ template <typename Distances>
 class Fit
 {
 public:
-  Fit(const BinaryImage& image, Distances& distances, double pixelsPerOctant)
-    : Image(image)
+  Fit(const SilhouetteRuns& surface, Distances& distances, double pixelsPerOctant)
+    : Surface(surface)
     , Map(distances)
     , Scale(pixelsPerOctant)
   {
@@ -82,8 +81,8 @@ private:
   {
     const double step = LeastThickness * this->Scale / length;
     const double column = std::floor(u + step * inward[0] + 0.5), row = std::floor(v + step * inward[1] + 0.5);
-    return !(column >= 0.0 && row >= 0.0 && column < this->Image.width && row < this->Image.height) ||
-      this->Image.at(int(column), int(row)) == 0;
+    return !(column >= 0.0 && row >= 0.0 && column < this->Surface.width && row < this->Surface.height) ||
+      !this->Surface.at(int(column), int(row));
   }
 
   /** Without the tenth at either end: what hides behind something else has no contour to be compared with. */
@@ -97,7 +96,7 @@ private:
     return std::accumulate(first, last, 0.0) / double(last - first);
   }
 
-  const BinaryImage& Image;
+  const SilhouetteRuns& Surface;
   Distances& Map;
   double Scale; ///< pixels for an octant
   std::size_t Places = 0;
@@ -108,30 +107,12 @@ private:
 
 /** Every place between two pixels of which one belongs to the surface. */
 template <typename Distances>
-ContourResidual compare(const BinaryImage& image, Distances&& distances, double limit, double pixelsPerOctant)
+ContourResidual compare(const SilhouetteRuns& surface, Distances&& distances, double limit, double pixelsPerOctant)
 {
-  Fit fit(image, distances, pixelsPerOctant);
-  for (int row = 0; row < image.height; ++row)
+  Fit fit(surface, distances, pixelsPerOctant);
+  for (const ContourPlace& place : contourPlaces(surface))
   {
-    const std::uint8_t* pixels = &image.pixels[std::size_t(row) * image.width];
-    const std::uint8_t* below = row + 1 < image.height ? pixels + image.width : pixels;
-    for (int column = 0; column < image.width; ++column)
-    {
-      // Most of an image is far from contours: eight pixels, their right neighbours and those below are one word each.
-      while (column + 8 < image.width && wordAt(pixels + column) == wordAt(pixels + column + 1) &&
-        wordAt(pixels + column) == wordAt(below + column))
-      {
-        column += 8;
-      }
-      if (column + 1 < image.width && pixels[column] != pixels[column + 1])
-      {
-        fit.add(column + 0.5, row, limit);
-      }
-      if (pixels[column] != below[column])
-      {
-        fit.add(column, row + 0.5, limit);
-      }
-    }
+    fit.add(place.column + (place.isBelow ? 0.0 : 0.5), place.row + (place.isBelow ? 0.5 : 0.0), limit);
   }
   return fit.result();
 }
@@ -149,11 +130,10 @@ std::vector<ContourResidual> contourResiduals(
       for (std::size_t i = first; i < last; ++i)
       {
         const double scale = fieldViews.pixelsPerOctant(views[i]);
-        // One image at a time: its memory serves the next.
-        const BinaryImage image = renderer.render(i);
+        const SilhouetteRuns seen = renderer.render(i);
         residuals[i] = fieldViews.isObserved(views[i])
-          ? compare(image, fieldViews.observed(views[i]), limit * scale, scale)
-          : compare(image, fieldViews.observedOnDemand(views[i]), limit * scale, scale);
+          ? compare(seen, fieldViews.observed(views[i]), limit * scale, scale)
+          : compare(seen, fieldViews.observedOnDemand(views[i]), limit * scale, scale);
       }
     });
   return residuals;

@@ -22,7 +22,7 @@ struct ContourResidual
 /**
  * Residuals of the given views. Places whose distance is more than `limit` octants, and where the surface's silhouette is
  * thinner than one and a half, do not count; a view with few others says nothing. The shift is fitted together with a constant, so that a
- * surface that is too small all around is not shifted. Cost: rendering, and a pass over the image; views that are not
+ * surface that is too small all around is not shifted. Cost: rendering, and the contours' places; views that are not
  * observed are measured where the surface's contour runs.
  */
 std::vector<ContourResidual> contourResiduals(

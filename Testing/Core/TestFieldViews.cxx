@@ -135,7 +135,7 @@ TEST(FieldViews, RenderIsTheSilhouetteOfTheShiftedProjection)
     Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
     shift.col(2).head<2>() = fieldViews.shift(view);
     const Projection shifted = shift * views[view].projection;
-    const BinaryImage image = renderer.render(n++);
+    const BinaryImage image = imageOf(renderer.render(n++));
     EXPECT_EQ(image.pixels, renderSilhouette(mesh, shifted, Size, Size).pixels) << view;
     EXPECT_EQ(image.pixels == renderSilhouette(mesh, views[view].projection, Size, Size).pixels, view == 0);
     EXPECT_GE(maps[view].reach, 5.0 * fieldViews.pixelsPerOctant(view));

@@ -33,7 +33,7 @@ std::size_t differing(const BinaryImage& a, const BinaryImage& b)
 BinaryImage rendered(const Mesh& mesh, const Projection& projection, int width, int height)
 {
   Execution execution;
-  return OutlineRenderer(mesh, { { projection, width, height } }, execution).render(0);
+  return imageOf(OutlineRenderer(mesh, { { projection, width, height } }, execution).render(0));
 }
 
 } // namespace
@@ -122,7 +122,7 @@ TEST(OutlineRendering, ManyCamerasAtOnce)
   ASSERT_EQ(renderer.size(), 70u);
   for (std::size_t n = 0; n < cameras.size(); n += 3)
   {
-    const BinaryImage image = renderer.render(n);
+    const BinaryImage image = imageOf(renderer.render(n));
     EXPECT_EQ(image.pixels, rendered(mesh, cameras[n].projection, 60, 50).pixels) << n;
     EXPECT_LE(differing(image, renderSilhouette(mesh, cameras[n].projection, 60, 50)), 1u) << n;
   }
