@@ -100,23 +100,31 @@ public:
   {
     const std::vector<Turn> turns = this->byRows();
     SilhouetteRuns runs{ this->Width, this->Height, {}, { 0 } };
+    // Of one row: by how much the winding changes at each column, and where it does, a bit each. All 0 before and after.
+    std::vector<std::int32_t> changes(std::size_t(this->Width) + 1, 0);
+    std::vector<std::uint64_t> changed(changes.size() / 64 + 1, 0);
     for (int row = 0; row < this->Height; ++row)
     {
-      const auto last = turns.begin() + this->Starts[std::size_t(row) + 1];
-      std::int32_t winding = 0, begin = 0;
-      for (auto turn = turns.begin() + this->Starts[std::size_t(row)]; turn != last;)
+      for (std::ptrdiff_t n = this->Starts[std::size_t(row)]; n < this->Starts[std::size_t(row) + 1]; ++n)
       {
-        const std::int32_t column = turn->column;
-        const bool wasCovered = winding != 0;
-        for (; turn != last && turn->column == column; ++turn)
+        const Turn& turn = turns[std::size_t(n)];
+        changes[std::size_t(turn.column)] += turn.change;
+        changed[std::size_t(turn.column) / 64] |= std::uint64_t(1) << turn.column % 64;
+      }
+      std::int32_t winding = 0, begin = 0;
+      for (std::size_t word = 0; word < changed.size(); ++word)
+      {
+        for (std::uint64_t left = std::exchange(changed[word], 0); left != 0; left &= left - 1)
         {
-          winding += turn->change;
+          const auto column = std::int32_t(64 * word) + lowestBit(left);
+          const bool wasCovered = winding != 0;
+          winding += std::exchange(changes[std::size_t(column)], 0);
+          if (wasCovered && winding == 0)
+          {
+            runs.runs.push_back({ begin, column });
+          }
+          begin = wasCovered ? begin : column;
         }
-        if (wasCovered && winding == 0)
-        {
-          runs.runs.push_back({ begin, column });
-        }
-        begin = wasCovered ? begin : column;
       }
       if (winding != 0 && begin < this->Width) // an outline that is not closed
       {
@@ -139,7 +147,7 @@ private:
     Turn turn;
   };
 
-  /** The turns of each row by ascending columns, from its start on. */
+  /** The turns of each row, from its start on. */
   std::vector<Turn> byRows()
   {
     std::ptrdiff_t sum = 0;
@@ -152,11 +160,6 @@ private:
     for (const Crossing& crossing : this->Crossings)
     {
       turns[std::size_t(next[std::size_t(crossing.row)]++)] = crossing.turn;
-    }
-    for (int row = 0; row < this->Height; ++row)
-    {
-      std::sort(turns.begin() + this->Starts[std::size_t(row)], turns.begin() + this->Starts[std::size_t(row) + 1],
-        [](const Turn& a, const Turn& b) { return a.column < b.column; });
     }
     return turns;
   }
