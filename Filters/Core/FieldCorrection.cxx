@@ -260,38 +260,35 @@ private:
   {
     this->Ranked.resize(this->Least.size());
     const float far = float(this->Views.reach());
-    execution.forRanges(this->Least.size() / BlockPoints, 8,
-      [&](std::size_t first, std::size_t last)
+    const auto makeWork = [&]
+    {
+      return [&, kept = std::vector<float>(std::size_t(rank) * BlockPoints)](std::size_t block, const std::vector<Near>& near) mutable
       {
-        std::vector<Near> near;
-        std::vector<float> kept(std::size_t(rank) * BlockPoints);
-        for (std::size_t block = first; block < last; ++block)
+        const LatticePoint lowest = fromMorton(this->Least.code(block));
+        std::fill(kept.begin(), kept.end(), far);
+        const float* const greatest = &kept[(rank - 1) * BlockPoints];
+        float distance[BlockPoints];
+        for (std::size_t i = 0; i < near.size() && !allAtMost(greatest, -far); ++i)
         {
-          const LatticePoint lowest = fromMorton(this->Least.code(block * BlockPoints));
-          this->findNear(lowest, nullptr, near);
-          std::fill(kept.begin(), kept.end(), far);
-          const float* const greatest = &kept[(rank - 1) * BlockPoints];
-          float distance[BlockPoints];
-          for (std::size_t i = 0; i < near.size() && !allAtMost(greatest, -far); ++i)
+          const auto& [view, region] = near[i];
+          this->Views.insideBlock(view, lowest, region, { { this->Views.observed(view), distance } });
+          keepLeast(distance, kept.data(), rank);
+        }
+        float* const least = &this->Least.values()[block];
+        float* const ranked = &this->Ranked[block];
+        std::copy(kept.begin(), kept.begin() + BlockPoints, least);
+        std::copy(greatest, greatest + BlockPoints, ranked);
+        const bool atBorder = this->touchesBorder(lowest);
+        for (std::size_t n = 0; n < BlockPoints && atBorder; ++n)
+        {
+          if (this->Views.lattice().onBorder(lowest + fromMorton(n)))
           {
-            const int view = near[i].view;
-            this->Views.insideBlock(view, this->Views.observed(view), lowest, near[i].region, distance);
-            keepLeast(distance, kept.data(), rank);
-          }
-          float* const least = &this->Least.values()[block * BlockPoints];
-          float* const ranked = &this->Ranked[block * BlockPoints];
-          std::copy(kept.begin(), kept.begin() + BlockPoints, least);
-          std::copy(greatest, greatest + BlockPoints, ranked);
-          const bool atBorder = this->touchesBorder(lowest);
-          for (std::size_t n = 0; n < BlockPoints && atBorder; ++n)
-          {
-            if (this->Views.lattice().onBorder(lowest + fromMorton(n)))
-            {
-              least[n] = ranked[n] = -far;
-            }
+            least[n] = ranked[n] = -far;
           }
         }
-      });
+      };
+    };
+    this->forBlocks(nullptr, [](std::size_t) { return true; }, makeWork, execution);
   }
 
   bool touchesBorder(const LatticePoint& block) const
@@ -300,19 +297,56 @@ private:
     return this->Views.lattice().onBorder(block) || this->Views.lattice().onBorder(block + LatticePoint{ last, last, last });
   }
 
-  /** All that have to be asked in a block. */
-  void findNear(const LatticePoint& block, const std::vector<DistanceMap>* maps, std::vector<Near>& near) const
+  /** Those of some views that have to be asked in a cube of `size` lattice points a side. */
+  void findNear(
+    const LatticePoint& lowest, int size, const std::vector<int>& among, const std::vector<DistanceMap>* maps, std::vector<Near>& near) const
   {
     near.clear();
-    for (const int view : this->All)
+    for (const int view : among)
     {
-      const FieldViews::Region region = this->Views.region(view, block, FieldViews::BlockSize);
+      const FieldViews::Region region = this->Views.region(view, lowest, size);
       if (!this->Views.wholeReach(this->Views.observed(view), region) ||
         (maps && !this->Views.wholeReach((*maps)[view], region)))
       {
         near.push_back({ view, region });
       }
     }
+  }
+
+  /**
+   * Call `work(block, near)` for each block of the field's for which `concerns(block)` holds, with its first point's index and the views that have to be asked
+   * there; `makeWork()` makes the work of each range of bricks. Views that are far from a brick are far from all of its blocks.
+   */
+  template <typename Concerns, typename MakeWork>
+  void forBlocks(const std::vector<DistanceMap>* maps, const Concerns& concerns, const MakeWork& makeWork, Execution& execution) const
+  {
+    execution.forRanges(this->Least.bricks().size(), 1,
+      [&](std::size_t firstBrick, std::size_t lastBrick)
+      {
+        auto work = makeWork();
+        std::vector<Near> near;
+        std::vector<int> nearBrick;
+        for (std::size_t brick = firstBrick; brick < lastBrick; ++brick)
+        {
+          bool isBrickKnown = false;
+          for (std::size_t block = brick * BrickField::BrickPoints; block < (brick + 1) * BrickField::BrickPoints; block += BlockPoints)
+          {
+            if (!concerns(block))
+            {
+              continue;
+            }
+            if (!isBrickKnown)
+            {
+              this->findNear(fromMorton(this->Least.code(brick * BrickField::BrickPoints)), BrickField::BrickSize, this->All, maps, near);
+              nearBrick.clear();
+              std::transform(near.begin(), near.end(), std::back_inserter(nearBrick), [](const Near& one) { return one.view; });
+              isBrickKnown = true;
+            }
+            this->findNear(fromMorton(this->Least.code(block)), FieldViews::BlockSize, nearBrick, maps, near);
+            work(block, near);
+          }
+        }
+      });
   }
 
   /** From the least distance to the model, and from the model to where the views agree. */
@@ -334,40 +368,35 @@ private:
     execution.checkpoint(0.85);
     this->Least.values() = model.values();
     const float band = float(this->Band);
-    execution.forRanges(model.size() / BlockPoints, 8,
-      [&](std::size_t first, std::size_t last)
+    const auto inBand = [&](float value) { return std::abs(value) < band; };
+    const auto concerns = [&](std::size_t block)
+    { return std::any_of(&model.values()[block], &model.values()[block] + BlockPoints, inBand); };
+    const auto makeWork = [&]
+    {
+      return [&, own = std::vector<float>(maps.size() * BlockPoints), seen = std::vector<float>(maps.size() * BlockPoints)](
+               std::size_t block, const std::vector<Near>& near) mutable
       {
-        std::vector<Near> near;
-        std::vector<float> own(maps.size() * BlockPoints), seen(own.size());
-        for (std::size_t block = first; block < last; ++block)
+        const LatticePoint lowest = fromMorton(model.code(block));
+        for (std::size_t i = 0; i < near.size(); ++i)
         {
-          const float* values = &model.values()[block * BlockPoints];
-          const auto inBand = [&](float value) { return std::abs(value) < band; };
-          if (std::none_of(values, values + BlockPoints, inBand))
+          const auto& [view, region] = near[i];
+          this->Views.insideBlock(
+            view, lowest, region, { { maps[view], &own[i * BlockPoints] }, { this->Views.observed(view), &seen[i * BlockPoints] } });
+        }
+        float agreed[BlockPoints];
+        this->agree(near, own.data(), seen.data(), agreed);
+        const bool atBorder = this->touchesBorder(lowest);
+        for (std::size_t n = 0; n < BlockPoints; ++n)
+        {
+          if (inBand(model.values()[block + n]))
           {
-            continue;
-          }
-          const LatticePoint lowest = fromMorton(model.code(block * BlockPoints));
-          this->findNear(lowest, &maps, near);
-          for (std::size_t i = 0; i < near.size(); ++i)
-          {
-            const auto& [view, region] = near[i];
-            this->Views.insideBlock(view, maps[view], lowest, region, &own[i * BlockPoints]);
-            this->Views.insideBlock(view, this->Views.observed(view), lowest, region, &seen[i * BlockPoints]);
-          }
-          float agreed[BlockPoints];
-          this->agree(near, own.data(), seen.data(), agreed);
-          const bool atBorder = this->touchesBorder(lowest);
-          for (std::size_t n = 0; n < BlockPoints; ++n)
-          {
-            if (inBand(values[n]))
-            {
-              const bool border = atBorder && this->Views.lattice().onBorder(lowest + fromMorton(n));
-              this->Least.values()[block * BlockPoints + n] = border ? -float(this->Views.reach()) : agreed[n];
-            }
+            const bool border = atBorder && this->Views.lattice().onBorder(lowest + fromMorton(n));
+            this->Least.values()[block + n] = border ? -float(this->Views.reach()) : agreed[n];
           }
         }
-      });
+      };
+    };
+    this->forBlocks(&maps, concerns, makeWork, execution);
     smoothGently(this->Least, sigma, deficit * this->Options.gentleness, execution);
   }
 

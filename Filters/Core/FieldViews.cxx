@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -15,65 +16,127 @@ namespace
 
 constexpr int Points = int(FieldViews::BlockPoints);
 
-/** The points of a block, from its lowest on, in Morton order. */
+/** Steps from a block's lowest point to its points, in Morton order. */
 struct BlockOffsets
 {
-  double i[Points], j[Points], k[Points];
+  float i[Points], j[Points], k[Points];
 
   BlockOffsets()
   {
     for (int n = 0; n < Points; ++n)
     {
       const LatticePoint p = fromMorton(std::uint64_t(n));
-      this->i[n] = p.i;
-      this->j[n] = p.j;
-      this->k[n] = p.k;
+      this->i[n] = float(p.i);
+      this->j[n] = float(p.j);
+      this->k[n] = float(p.k);
     }
   }
 };
 
-/** Where the points of a block fall in a map that has all four samples around each of them. */
-struct BlockPlaces
+/**
+ * How a view sees a block, from where its lowest point falls on: single precision is enough for the few pixels from there to the others, to 1e-5 of them.
+ */
+struct BlockProjection
 {
-  double octantsPerPixel[Points];
-  std::int32_t sample[Points]; ///< the upper left one of the four
-  float s[Points], t[Points];
-  float value[4][Points];
+  double u, v, octantsPerPixel; ///< of the lowest point
+  float stepU[3], stepV[3];     ///< px for a step on each axis, at that point's depth
+  float stepDepth[3];           ///< by how much of that depth a step is further away
+
+  BlockProjection(const LatticeProjection& projection, const LatticePoint& lowest, double depthScale)
+  {
+    const HomogeneousPixel h = projection(lowest);
+    const double inverse = 1.0 / h.W;
+    this->u = h.U * inverse;
+    this->v = h.V * inverse;
+    this->octantsPerPixel = h.W * depthScale;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const auto& step = projection.step[axis];
+      this->stepU[axis] = float((step[0] - this->u * step[2]) * inverse);
+      this->stepV[axis] = float((step[1] - this->v * step[2]) * inverse);
+      this->stepDepth[axis] = float(step[2] * inverse);
+    }
+  }
 };
 
-SILHOUETTE_VECTORISED void placeBlock(
-  const LatticeProjection& projection, const LatticePoint& lowest, double depthScale, const DistanceFrame& frame,
-  const BlockOffsets& offsets, BlockPlaces& places)
+/** Where the points of a block fall, px from where its lowest one does. */
+struct BlockPlaces
 {
-  const auto& c = projection.constant;
-  const auto& step = projection.step;
+  float u[Points], v[Points], octantsPerPixel[Points];
+};
+
+SILHOUETTE_VECTORISED void placeBlock(const BlockProjection& block, const BlockOffsets& offsets, BlockPlaces& places)
+{
+  const auto octantsPerPixel = float(block.octantsPerPixel);
   for (int n = 0; n < Points; ++n)
   {
-    const double i = lowest.i + offsets.i[n], j = lowest.j + offsets.j[n], k = lowest.k + offsets.k[n];
-    const double U = ((c[0] + step[0][0] * i) + step[1][0] * j) + step[2][0] * k;
-    const double V = ((c[1] + step[0][1] * i) + step[1][1] * j) + step[2][1] * k;
-    const double W = ((c[2] + step[0][2] * i) + step[1][2] * j) + step[2][2] * k;
-    const double inverse = 1.0 / W;
-    const double x = (U * inverse - frame.left) * frame.samplesPerPixel, y = (V * inverse - frame.top) * frame.samplesPerPixel;
-    const std::int32_t column = std::int32_t(x), row = std::int32_t(y);
-    places.octantsPerPixel[n] = W * depthScale;
-    places.sample[n] = row * frame.columns + column;
-    places.s[n] = float(x - column);
-    places.t[n] = float(y - row);
+    const float i = offsets.i[n], j = offsets.j[n], k = offsets.k[n];
+    const float depth = 1.0f + ((block.stepDepth[0] * i + block.stepDepth[1] * j) + block.stepDepth[2] * k);
+    const float inverse = 1.0f / depth;
+    places.u[n] = ((block.stepU[0] * i + block.stepU[1] * j) + block.stepU[2] * k) * inverse;
+    places.v[n] = ((block.stepV[0] * i + block.stepV[1] * j) + block.stepV[2] * k) * inverse;
+    places.octantsPerPixel[n] = octantsPerPixel * depth;
   }
 }
 
-SILHOUETTE_VECTORISED void interpolateBlock(const BlockPlaces& places, float reach, float* inside)
+/** The samples of a map around each of some places, of which it has all four. */
+struct BlockSamples
+{
+  std::int32_t sample[Points]; ///< the upper left one of the four, from the first sample that is asked for on
+  float s[Points], t[Points];
+  float upper[2 * Points], lower[2 * Points];
+};
+
+/** `x` and `y`: samples from the first one that is asked for to where the lowest point falls. */
+SILHOUETTE_VECTORISED void findSamples(
+  const BlockPlaces& places, float x, float y, float samplesPerPixel, std::int32_t columns, BlockSamples& samples)
 {
   for (int n = 0; n < Points; ++n)
   {
-    const float s = places.s[n], t = places.t[n];
-    const float pixels = (places.value[0][n] * (1 - s) + places.value[1][n] * s) * (1 - t) +
-      (places.value[2][n] * (1 - s) + places.value[3][n] * s) * t;
-    const float octants = float(pixels * places.octantsPerPixel[n]);
+    const float across = x + places.u[n] * samplesPerPixel, down = y + places.v[n] * samplesPerPixel;
+    const auto column = std::int32_t(across), row = std::int32_t(down);
+    samples.sample[n] = row * columns + column;
+    samples.s[n] = across - float(column);
+    samples.t[n] = down - float(row);
+  }
+}
+
+SILHOUETTE_VECTORISED void interpolateBlock(const BlockSamples& samples, const BlockPlaces& places, float reach, float* inside)
+{
+  for (int n = 0; n < Points; ++n)
+  {
+    const float s = samples.s[n], t = samples.t[n];
+    const float pixels = (samples.upper[2 * n] * (1 - s) + samples.upper[2 * n + 1] * s) * (1 - t) +
+      (samples.lower[2 * n] * (1 - s) + samples.lower[2 * n + 1] * s) * t;
+    const float octants = pixels * places.octantsPerPixel[n];
     const float least = octants < -reach ? -reach : octants;
     inside[n] = reach < least ? reach : least;
   }
+}
+
+/** Does a map have all samples around the places of a region? */
+bool hasSamplesAround(const DistanceMap& map, const FieldViews::Region& region)
+{
+  return region.octantsPerPixel > 0.0 && !map.value.empty() && region.firstU >= map.left && region.firstV >= map.top &&
+    region.lastU < map.left + map.lastColumn && region.lastV < map.top + map.lastRow &&
+    map.value.size() <= std::size_t(std::numeric_limits<std::int32_t>::max());
+}
+
+void insideOfSamples(
+  const DistanceMap& map, const FieldViews::Region& region, const BlockProjection& block, const BlockPlaces& places, float reach, float* inside)
+{
+  const int column = int((region.firstU - map.left) * map.samplesPerPixel), row = int((region.firstV - map.top) * map.samplesPerPixel);
+  const double x = (block.u - map.left) * map.samplesPerPixel - column, y = (block.v - map.top) * map.samplesPerPixel - row;
+  BlockSamples samples;
+  findSamples(places, float(x), float(y), float(map.samplesPerPixel), map.columns, samples);
+  const float* const first = &map.value[std::size_t(row) * map.columns + column];
+  for (int n = 0; n < Points; ++n)
+  {
+    const float* sample = first + samples.sample[n];
+    std::memcpy(&samples.upper[2 * n], sample, 2 * sizeof(float));
+    std::memcpy(&samples.lower[2 * n], sample + map.columns, 2 * sizeof(float));
+  }
+  interpolateBlock(samples, places, reach, inside);
 }
 
 } // namespace
@@ -197,30 +260,24 @@ FieldViews::Region FieldViews::region(int view, const LatticePoint& lowest, int 
 }
 
 void FieldViews::insideBlock(
-  int view, const DistanceMap& map, const LatticePoint& lowest, const Region& region, float* inside) const
+  int view, const LatticePoint& lowest, const Region& region, std::initializer_list<BlockQuestion> questions) const
 {
-  const bool within = region.octantsPerPixel > 0.0 && !map.value.empty() && region.firstU >= map.left &&
-    region.firstV >= map.top && region.lastU < map.left + map.lastColumn && region.lastV < map.top + map.lastRow;
-  if (!within || map.value.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
+  static const BlockOffsets offsets;
+  BlockPlaces places;
+  const BlockProjection block(this->OnLattice[view], lowest, this->DepthScale[view]);
+  placeBlock(block, offsets, places);
+  for (const auto& [map, inside] : questions)
   {
+    if (hasSamplesAround(map, region))
+    {
+      insideOfSamples(map, region, block, places, float(this->Reach), inside);
+      continue;
+    }
     for (int n = 0; n < Points; ++n)
     {
       inside[n] = this->inside(map, this->place(view, lowest + fromMorton(std::uint64_t(n))));
     }
-    return;
   }
-  static const BlockOffsets offsets;
-  BlockPlaces places;
-  placeBlock(this->OnLattice[view], lowest, this->DepthScale[view], map, offsets, places);
-  for (int n = 0; n < Points; ++n)
-  {
-    const float* sample = &map.value[std::size_t(places.sample[n])];
-    places.value[0][n] = sample[0];
-    places.value[1][n] = sample[1];
-    places.value[2][n] = sample[map.columns];
-    places.value[3][n] = sample[map.columns + 1];
-  }
-  interpolateBlock(places, float(this->Reach), inside);
 }
 
 std::vector<ImageCamera> FieldViews::cameras(const std::vector<int>& views) const

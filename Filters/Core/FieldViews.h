@@ -8,6 +8,7 @@
 #include "OutlineRendering.h"
 #include "PreparedViews.h"
 
+#include <initializer_list>
 #include <vector>
 
 namespace silhouette
@@ -73,12 +74,14 @@ public:
     double firstU, lastU, firstV, lastV, octantsPerPixel;
   };
   Region region(int view, const LatticePoint& lowest, int size) const;
-  /**
-   * inside() of the places of a block's points, to the same bits, in Morton order. `region` is that of the block; the map is
-   * of this view's image.
-   */
-  void insideBlock(
-    int view, const DistanceMap& map, const LatticePoint& lowest, const Region& region, float* inside) const;
+  /** A map of a view's image, and where to write the values of a block's points, BlockPoints of them in Morton order. */
+  struct BlockQuestion
+  {
+    const DistanceMap& map;
+    float* inside;
+  };
+  /** inside() of the places of a block's points, to 1e-4 octants, in each of some maps of the view. `region` is that of the block. */
+  void insideBlock(int view, const LatticePoint& lowest, const Region& region, std::initializer_list<BlockQuestion> questions) const;
   /** Is inside() the whole reach for all points of a region? May say no where it is. */
   bool wholeReach(const DistanceMap& map, const Region& region) const
   {
