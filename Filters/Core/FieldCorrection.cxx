@@ -363,8 +363,13 @@ private:
     }
     smoothGently(model, sigma, deficit * this->Options.gentleness, execution);
     execution.checkpoint(0.75);
-    result.hull = applyHullBase(model, this->Options.hullConvexity, this->Band, execution);
-    const auto maps = this->Views.distances(model.contourMesh(execution), execution);
+    Mesh surface = model.contourMesh(execution);
+    result.hull = applyHullBase(model, surface, this->Options.hullConvexity, this->Band, execution);
+    if (result.hull.applied)
+    {
+      surface = model.contourMesh(execution);
+    }
+    const auto maps = this->Views.distances(surface, execution);
     execution.checkpoint(0.85);
     this->Least.values() = model.values();
     const float band = float(this->Band);

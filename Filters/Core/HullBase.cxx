@@ -201,19 +201,50 @@ float typicalExcess(const BrickField& field, const std::vector<float>& hull)
   return *middle;
 }
 
+constexpr std::size_t FewPoints = 2000; ///< of a surface, whose hull is made first
+
+/** The volume of a surface as a share of some points' hull, at most 1; 0 where there is no hull. */
+double shareOf(const Mesh& hull, const Mesh& surface)
+{
+  return hull.triangles.empty()
+    ? 0.0
+    : std::clamp(signedVolume(surface.points, surface.triangles) / signedVolume(hull.points, hull.triangles), 0.0, 1.0);
+}
+
+/** The share of a hull that lies within the points' and takes little time; 1 where that tells nothing. */
+double greatestConvexity(const Mesh& surface)
+{
+  if (surface.points.size() <= FewPoints)
+  {
+    return 1.0;
+  }
+  std::vector<Eigen::Vector3d> some;
+  const std::size_t step = surface.points.size() / FewPoints;
+  for (std::size_t n = 0; n < surface.points.size(); n += step)
+  {
+    some.push_back(surface.points[n]);
+  }
+  const Mesh hull = convexHull(some).value_or(Mesh());
+  return hull.triangles.empty() ? 1.0 : shareOf(hull, surface);
+}
+
 } // namespace
 
-HullBase applyHullBase(BrickField& field, double leastConvexity, double band, Execution& execution)
+HullBase applyHullBase(BrickField& field, const Mesh& surface, double leastConvexity, double band, Execution& execution)
 {
   HullBase base;
-  const Mesh surface = leastConvexity < 1.0 ? field.contourMesh(execution) : Mesh();
-  const Mesh hull = convexHull(surface.points).value_or(Mesh());
-  const auto planes = planesOf(hull, field.lattice());
-  if (surface.triangles.empty() || planes.empty())
+  if (leastConvexity >= 1.0 || surface.triangles.empty())
   {
     return base;
   }
-  base.convexity = std::clamp(signedVolume(surface.points, surface.triangles) / signedVolume(hull.points, hull.triangles), 0.0, 1.0);
+  base.convexity = greatestConvexity(surface);
+  if (base.convexity <= leastConvexity)
+  {
+    return base;
+  }
+  const Mesh hull = convexHull(surface.points).value_or(Mesh());
+  const auto planes = planesOf(hull, field.lattice());
+  base.convexity = planes.empty() ? 0.0 : shareOf(hull, surface);
   base.applied = base.convexity > leastConvexity;
   if (!base.applied)
   {

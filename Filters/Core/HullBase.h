@@ -13,16 +13,19 @@ namespace silhouette
 struct HullBase
 {
   bool applied = false;
-  /** The volume that the field's surface encloses as a share of its convex hull's, 0 to 1; 0 where there is no surface or no hull. */
+  /**
+   * The volume that the field's surface encloses as a share of its convex hull's, 0 to 1; 0 where there is no surface or no hull, or none was made.
+   * Where the hull of some of the surface's points told that the whole's is not applied, that hull's: a little more.
+   */
   double convexity = 0.0;
 };
 
 /**
- * Where the convexity of the surface on which `field` is 0 exceeds `leastConvexity`, replace the field's values of at most `band`
+ * `surface`: field.contourMesh(). Where its convexity exceeds `leastConvexity`, replace the field's values of at most `band`
  * octants by the distance in octants from the convex hull of that surface, positive inside, less the median by which the two
  * differ within half an octant of the surface: the hull of a noisy surface lies too far outside. A `leastConvexity` of 1 or more never does.
- * Cost: a contour, a hull, and for each 64 points of the band a look at each of the hull's facets.
+ * Cost: a hull, for surfaces that are far from convex of 4,000 points at most, else for each 64 points of the band a look at each of the hull's facets.
  */
-HullBase applyHullBase(BrickField& field, double leastConvexity, double band, Execution& execution);
+HullBase applyHullBase(BrickField& field, const Mesh& surface, double leastConvexity, double band, Execution& execution);
 
 } // namespace silhouette

@@ -2,6 +2,7 @@
 #include "HullBase.h"
 
 #include "CarvingTestCaptures.h"
+#include "ConvexHull.h"
 
 #include <gtest/gtest.h>
 
@@ -14,12 +15,14 @@ using namespace silhouette::test;
 namespace
 {
 
-/** A field around a surface, in octants of a lattice of 32 cells a side. */
-BrickField fieldOf(const std::function<double(const Vector3&)>& depth)
+/** A field around a surface that is given in a lattice of 32 cells a side; the field's may have a generation more. */
+BrickField fieldOf(const std::function<double(const Vector3&)>& surface, int generations = 5)
 {
-  const Lattice lattice{ { Vector3(-1.0, -2.0, 0.5), 2.0 }, 5 };
+  const double finer = double(1 << (generations - 5));
+  const auto depth = [&](const Vector3& p) { return finer * surface(p / finer); };
+  const Lattice lattice{ { Vector3(-1.0, -2.0, 0.5), 2.0 }, generations };
   std::vector<std::uint64_t> cells;
-  for (std::uint64_t cell = 0; cell < 32 * 32 * 32; ++cell)
+  for (std::uint64_t cell = 0; cell < std::uint64_t(1) << 3 * generations; ++cell)
   {
     if (std::abs(depth(toVector(fromMorton(cell)))) < 2.0)
     {
@@ -75,7 +78,7 @@ TEST(HullBase, SmoothsARoughBallAndStaysWhereItWas)
   Execution execution;
   BrickField field = fieldOf(roughBall);
   const double before = roughness(field);
-  const HullBase base = applyHullBase(field, 0.95, 3.0, execution);
+  const HullBase base = applyHullBase(field, field.contourMesh(execution), 0.95, 3.0, execution);
   EXPECT_TRUE(base.applied);
   EXPECT_GT(base.convexity, 0.97);
   EXPECT_LT(base.convexity, 1.0);
@@ -88,38 +91,45 @@ TEST(HullBase, LeavesTheDistanceFromAConvexSurface)
 {
   Execution execution;
   BrickField field = fieldOf(ball);
-  EXPECT_TRUE(applyHullBase(field, 0.97, 3.0, execution).applied);
+  EXPECT_TRUE(applyHullBase(field, field.contourMesh(execution), 0.97, 3.0, execution).applied);
   EXPECT_LT(roughness(field), 0.03);
 }
 
 TEST(HullBase, LeavesConcaveFieldsAndThoseThatAreNotToHaveIt)
 {
   Execution execution;
-  BrickField field = fieldOf(torus);
+  BrickField field = fieldOf(torus, 6);
   const std::vector<float> before = field.values();
-  const HullBase base = applyHullBase(field, 0.97, 3.0, execution);
+  const HullBase base = applyHullBase(field, field.contourMesh(execution), 0.97, 3.0, execution);
   EXPECT_FALSE(base.applied);
+  const Mesh surface = field.contourMesh(execution);
+  const auto hull = convexHull(surface.points);
+  ASSERT_TRUE(hull);
+  ASSERT_GT(surface.points.size(), 4000u) << "too few for some of them to tell";
+  const double share = signedVolume(surface.points, surface.triangles) / signedVolume(hull->points, hull->triangles);
+  EXPECT_GE(base.convexity, share) << "some points' hull is smaller";
+  EXPECT_LT(base.convexity, share + 0.02);
   EXPECT_GT(base.convexity, 0.5);
   EXPECT_LT(base.convexity, 0.9);
   EXPECT_EQ(field.values(), before);
   BrickField convex = fieldOf(ball);
   const std::vector<float> own = convex.values();
-  EXPECT_FALSE(applyHullBase(convex, 1.0, 3.0, execution).applied);
+  EXPECT_FALSE(applyHullBase(convex, convex.contourMesh(execution), 1.0, 3.0, execution).applied);
   EXPECT_EQ(convex.values(), own);
   BrickField empty = fieldOf([](const Vector3&) { return -1.0; });
-  EXPECT_FALSE(applyHullBase(empty, 0.0, 3.0, execution).applied);
+  EXPECT_FALSE(applyHullBase(empty, empty.contourMesh(execution), 0.0, 3.0, execution).applied);
 }
 
 TEST(HullBase, SameForAnyNumberOfThreads)
 {
   BrickField one = fieldOf(roughBall);
   Execution execution;
-  applyHullBase(one, 0.9, 3.0, execution);
+  applyHullBase(one, one.contourMesh(execution), 0.9, 3.0, execution);
   for (const int threads : { 2, 8 })
   {
     BrickField many = fieldOf(roughBall);
     ThreadedExecution threaded(threads);
-    applyHullBase(many, 0.9, 3.0, threaded);
+    applyHullBase(many, many.contourMesh(threaded), 0.9, 3.0, threaded);
     EXPECT_EQ(one.values(), many.values());
   }
 }
