@@ -133,4 +133,10 @@ std::vector<std::uint64_t> CoverageNear::lost(const Mesh& mesh, Execution& execu
   return codes;
 }
 
+std::vector<std::uint64_t> CoverageNear::lostWithin(const std::vector<Box>& boxes, const Mesh& mesh, Execution& execution) const
+{
+  const Mesh part = this->Triangles.of(mesh);
+  return CoverageNear(this->Part, part, boxes, execution).lost(part, execution);
+}
+
 } // namespace silhouette

@@ -28,6 +28,8 @@ public:
   /** Morton codes, ascending, of the lost survivors that a box meets. `mesh` differs from the one before in points alone. Cost:
    * survivorCoverage() of those octants, with the triangles in their rows along x. */
   std::vector<std::uint64_t> lost(const Mesh& mesh, Execution& execution) const;
+  /** Those of them that one of some boxes meets, or an octant beside it. Cost: a pass over the triangles in all rows, and those octants with what is in their rows. */
+  std::vector<std::uint64_t> lostWithin(const std::vector<Box>& boxes, const Mesh& mesh, Execution& execution) const;
 
 private:
   void findSurvivors(const Octree& octree, const std::vector<Box>& swept);

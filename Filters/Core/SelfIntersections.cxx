@@ -15,8 +15,9 @@ namespace silhouette
 namespace
 {
 
-constexpr std::size_t Block = 256;   ///< items whose pairs are written to one place
-constexpr std::size_t Batches = 16;  ///< times that a run asks whether it is cancelled
+constexpr std::size_t Block = 32;        ///< items whose pairs are written to one place
+constexpr std::size_t MostBatches = 16;  ///< times that a run asks whether it is cancelled
+constexpr std::size_t BatchBlocks = 128; ///< that are worth asking once more
 
 using PairList = std::vector<TrianglePair>;
 
@@ -25,12 +26,13 @@ PairList collect(std::size_t items, const std::function<void(std::size_t, PairLi
   Execution& execution, double from)
 {
   const std::size_t blocks = (items + Block - 1) / Block;
+  const std::size_t batches = std::clamp(blocks / BatchBlocks, std::size_t(1), MostBatches);
   std::vector<PairList> lists(blocks);
-  for (std::size_t batch = 0; batch < Batches; ++batch)
+  for (std::size_t batch = 0; batch < batches; ++batch)
   {
-    execution.checkpoint(from + (1.0 - from) * double(batch) / Batches);
-    const std::size_t firstBlock = blocks * batch / Batches;
-    execution.forRanges(blocks * (batch + 1) / Batches - firstBlock, 1,
+    execution.checkpoint(from + (1.0 - from) * double(batch) / double(batches));
+    const std::size_t firstBlock = blocks * batch / batches;
+    execution.forRanges(blocks * (batch + 1) / batches - firstBlock, 1,
       [&](std::size_t first, std::size_t last)
       {
         for (std::size_t b = firstBlock + first; b < firstBlock + last; ++b)

@@ -215,6 +215,7 @@ private:
     }
     this->Scale.assign(this->Points.size(), 1.0);
     this->Withdrawn.assign(this->Points.size(), 0);
+    this->ChangedAt.assign(this->Points.size(), 0);
     this->Run.checkpoint(0.3);
   }
 
@@ -244,6 +245,7 @@ private:
     }
     this->Scale[m] = ++this->Withdrawn[m] >= Rounds ? 0.0 : this->Scale[m] * 0.6;
     this->place(m);
+    this->ChangedAt[m] = this->Now;
     return true;
   }
 
@@ -251,6 +253,14 @@ private:
   {
     const Triangle& triangle = this->TheMesh.triangles[t];
     return std::any_of(triangle.begin(), triangle.end(), [&](std::int32_t p) { return this->Number[std::size_t(p)] >= 0; });
+  }
+
+  /** Has one of a triangle's points been withdrawn since a moment of Now? */
+  bool hasChanged(std::size_t t, std::uint64_t since) const
+  {
+    const Triangle& triangle = this->TheMesh.triangles[t];
+    return std::any_of(triangle.begin(), triangle.end(), [&](std::int32_t p)
+      { return this->Number[std::size_t(p)] >= 0 && this->ChangedAt[std::size_t(this->Number[std::size_t(p)])] > since; });
   }
 
   /** Of all places of a triangle, whatever the scales: a point stays between two. */
@@ -273,7 +283,8 @@ private:
   {
     const std::size_t count = this->TheMesh.triangles.size();
     const Vector3 slack = Vector3::Constant(1e-3 * this->lattice().leafEdge()); // for rounding
-    for (const std::int32_t t : indicesWhere(count, 4096, this->Run, [&](std::size_t n) { return this->moves(n); }))
+    this->Moving = indicesWhere(count, 4096, this->Run, [&](std::size_t n) { return this->moves(n); });
+    for (const std::int32_t t : this->Moving)
     {
       const Box box = this->sweptBy(std::size_t(t));
       this->Swept.emplace_back(box.min() - slack, box.max() + slack);
@@ -289,12 +300,41 @@ private:
     this->Run.checkpoint(0.4);
   }
 
+  /** The pairs of triangles that meet, by their numbers among Near; those of which neither has changed meet as they did. */
+  const std::vector<TrianglePair>& intersections()
+  {
+    Phase phase(this->Run, 0.4, 0.4);
+    const Mesh part = this->Near.of(this->TheMesh);
+    if (this->MetAt == 0)
+    {
+      this->Met = selfIntersections(part, phase);
+    }
+    else
+    {
+      std::vector<std::int32_t> changed;
+      std::vector<std::uint8_t> isChanged(part.triangles.size(), 0);
+      for (std::size_t n = 0; n < part.triangles.size(); ++n)
+      {
+        if (this->hasChanged(std::size_t(this->Near.triangle(n)), this->MetAt))
+        {
+          changed.push_back(std::int32_t(n));
+          isChanged[n] = 1;
+        }
+      }
+      const auto isOver = [&](const TrianglePair& pair) { return isChanged[std::size_t(pair[0])] || isChanged[std::size_t(pair[1])]; };
+      this->Met.erase(std::remove_if(this->Met.begin(), this->Met.end(), isOver), this->Met.end());
+      const auto pairs = selfIntersectionsWith(part, changed, phase);
+      this->Met.insert(this->Met.end(), pairs.begin(), pairs.end());
+    }
+    this->MetAt = this->Now++;
+    return this->Met;
+  }
+
   void withdrawIntersections()
   {
     for (;;)
     {
-      Phase phase(this->Run, 0.4, 0.4);
-      const auto pairs = selfIntersections(this->Near.of(this->TheMesh), phase);
+      const auto& pairs = this->intersections();
       if (pairs.empty())
       {
         return;
@@ -398,15 +438,40 @@ private:
     return any;
   }
 
+  /** Where a survivor may be lost that was not, or was: what triangles sweep that have changed since, and the octants that were lost. */
+  std::vector<Box> changedBoxes() const
+  {
+    std::vector<Box> boxes;
+    for (std::size_t n = 0; n < this->Moving.size(); ++n)
+    {
+      if (this->hasChanged(std::size_t(this->Moving[n]), this->LostAt))
+      {
+        boxes.push_back(this->Swept[n]);
+      }
+    }
+    for (const std::uint64_t code : this->Lost)
+    {
+      const Vector3 corner = this->lattice().root.origin + toVector(fromMorton(code)) * this->lattice().leafEdge();
+      boxes.emplace_back(corner, corner + Vector3::Constant(this->lattice().leafEdge()));
+    }
+    return boxes;
+  }
+
   /** Withdraw around the survivors that the surface has lost; false where there are none. */
   bool withdrawLost()
   {
+    Phase phase(this->Run, 0.9, 0.9);
     if (!this->Survivors)
     {
       this->Survivors.emplace(this->Thin.octree, this->TheMesh, this->Swept, this->Run);
+      this->Lost = this->Survivors->lost(this->TheMesh, phase);
     }
-    Phase phase(this->Run, 0.9, 0.9);
-    const auto lost = this->Survivors->lost(this->TheMesh, phase);
+    else
+    {
+      this->Lost = this->Survivors->lostWithin(this->changedBoxes(), this->TheMesh, phase);
+    }
+    this->LostAt = this->Now++;
+    const auto& lost = this->Lost;
     if (lost.empty())
     {
       return false;
@@ -457,9 +522,16 @@ private:
   ConcurrentUnionFind Components; ///< of the mesh's points
   std::vector<double> Scale;
   std::vector<int> Withdrawn;
-  MeshPart Near;          ///< the triangles that may meet a moving one
-  std::vector<Box> Swept; ///< by each triangle that moves
+  std::uint64_t Now = 1;                ///< grows with each look for intersections and for what is lost
+  std::vector<std::uint64_t> ChangedAt; ///< when each point was withdrawn last
+  MeshPart Near;                        ///< the triangles that may meet a moving one
+  std::vector<TrianglePair> Met;        ///< of these, when they were looked at last
+  std::uint64_t MetAt = 0;
+  std::vector<std::int32_t> Moving; ///< triangles
+  std::vector<Box> Swept;           ///< by each of them
   std::optional<CoverageNear> Survivors;
+  std::vector<std::uint64_t> Lost; ///< when they were looked at last
+  std::uint64_t LostAt = 0;
 };
 
 } // namespace

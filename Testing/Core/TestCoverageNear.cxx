@@ -77,7 +77,7 @@ TEST(CoverageNear, LosesWhatTheWholeSurfaceLoses)
 {
   Execution execution;
   const Lattice lattice{ unitCube(1.1), 4 };
-  int runs = 0;
+  int runs = 0, fewer = 0;
   std::size_t most = 0;
   for (const Mesh& before : { torusMesh(40, 20, 0.6, 0.25), sphereMesh(3, 0.7) })
   {
@@ -102,10 +102,26 @@ TEST(CoverageNear, LosesWhatTheWholeSurfaceLoses)
       EXPECT_TRUE(near.lost(before, execution).empty()) << seed;
       most = std::max(most, expected.size());
       runs += !expected.empty();
+      // A few points go back: what they sweep, and what was lost, is all that can be lost now.
+      Mesh later = after;
+      for (std::size_t p = 0; p < later.points.size(); ++p)
+      {
+        later.points[p] = random.uniform(0, 1) < 0.1 ? before.points[p] : later.points[p];
+      }
+      std::vector<Box> changed = sweptBy(after, later);
+      fewer += changed.size() < before.triangles.size() / 2;
+      for (const std::uint64_t code : expected)
+      {
+        const Vector3 corner = lattice.root.origin + toVector(fromMorton(code)) * lattice.leafEdge();
+        changed.emplace_back(corner, corner + Vector3::Constant(lattice.leafEdge()));
+      }
+      EXPECT_EQ(near.lostWithin(changed, later, execution), near.lost(later, execution)) << seed;
+      EXPECT_TRUE(near.lostWithin({}, later, execution).empty());
     }
   }
   EXPECT_GT(runs, 10);
   EXPECT_GT(most, 50u);
+  EXPECT_GT(fewer, 10);
 }
 
 TEST(CoverageNear, NothingThatMovesLosesNothing)
