@@ -53,6 +53,17 @@ inline std::uint64_t fromBehind(std::uint64_t bits, std::uint64_t beyond, int ax
     (beyond & block_bits::High[axis]) >> 9 * unit;
 }
 
+/** The points of a block whose values, 64 in Morton order, are positive. */
+inline std::uint64_t positiveBits(const float* values)
+{
+  std::uint64_t bits = 0;
+  for (int n = 0; n < 64; ++n)
+  {
+    bits |= std::uint64_t(values[n] > 0.0f) << n;
+  }
+  return bits;
+}
+
 /** The block one step ahead, or with `ahead` false behind, on an axis; false where a coordinate would be negative. */
 inline bool besideBlock(std::uint64_t block, int axis, bool ahead, std::uint64_t& other)
 {

@@ -2,6 +2,7 @@
 #include "LatticeLabels.h"
 
 #include "BlockBits.h"
+#include "CodeCursor.h"
 #include "CornerVotes.h"
 #include "FirstTouch.h"
 #include "MarchingCubesTable.h"
@@ -241,20 +242,32 @@ LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const Surf
   std::replace(this->Inside.begin(), this->Inside.end(), Unknown, std::uint8_t(0));
 }
 
-LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const BrickField& field)
+LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const BrickField& field, Execution& execution)
   : TheOctree(&octree)
   , Shell(std::move(shell))
-  , Inside(Shell.corners.size())
-  , Support(Shell.corners.size(), 0.0f)
   , Field(&field)
 {
   this->setSurvivors(leafCells(octree, OctantState::Intersection));
-  for (std::size_t c = 0; c < this->Shell.corners.size(); ++c)
-  {
-    this->Inside[c] = this->unlabelled(fromMorton(this->Shell.corners[c]));
-    const std::ptrdiff_t point = field.find(this->Shell.corners[c]);
-    this->Support[c] = point >= 0 ? field.values()[point] : 0.0f;
-  }
+  resizeSideBySide(this->Inside, this->Shell.corners.size(), execution);
+  resizeSideBySide(this->Support, this->Shell.corners.size(), execution);
+  const auto& corners = this->Shell.corners;
+  execution.forRanges(corners.size(), 4096,
+    [&](std::size_t first, std::size_t last)
+    {
+      OctantCursor octants(octree);
+      for (std::size_t c = first; c < last;)
+      {
+        const std::uint64_t block = corners[c] >> 6;
+        const std::uint64_t inside = this->unlabelledOfBlock(block, octants) & withinBorder(octree.lattice, block);
+        const std::ptrdiff_t point = field.find(64 * block);
+        for (; c < last && corners[c] >> 6 == block; ++c)
+        {
+          const std::uint64_t bit = corners[c] & 63;
+          this->Inside[c] = std::uint8_t(inside >> bit & 1);
+          this->Support[c] = point >= 0 ? field.values()[std::size_t(point) + bit] : 0.0f;
+        }
+      }
+    });
 }
 
 /** Labels go along the edges that the surface does not cross, breadth first in lattice order. */
@@ -309,16 +322,28 @@ void LatticeLabels::setSurvivors(const std::vector<std::uint64_t>& cells)
   }
 }
 
-void LatticeLabels::widen(CornerShell shell)
+void LatticeLabels::widen(CornerShell shell, Execution& execution)
 {
   std::vector<std::uint8_t> inside(shell.corners.size());
   std::vector<float> support(shell.corners.size(), 0.0f);
-  for (std::size_t c = 0; c < shell.corners.size(); ++c)
-  {
-    const std::ptrdiff_t corner = this->Shell.find(shell.corners[c]);
-    inside[c] = this->insideAt(fromMorton(shell.corners[c]));
-    support[c] = corner >= 0 ? this->Support[corner] : 0.0f;
-  }
+  execution.forRanges(shell.corners.size(), 4096,
+    [&](std::size_t first, std::size_t last)
+    {
+      CodeCursor known(this->Shell.corners);
+      OctantCursor octants(*this->TheOctree);
+      for (std::size_t c = first; c < last;)
+      {
+        const std::uint64_t block = shell.corners[c] >> 6;
+        Corner corner = std::lower_bound(this->Shell.corners.begin(), this->Shell.corners.end(), 64 * block);
+        const std::uint64_t labels = this->insideOfBlock(block, corner, octants);
+        for (; c < last && shell.corners[c] >> 6 == block; ++c)
+        {
+          const std::ptrdiff_t at = known.find(shell.corners[c]);
+          inside[c] = std::uint8_t(labels >> (shell.corners[c] & 63) & 1);
+          support[c] = at >= 0 ? this->Support[std::size_t(at)] : 0.0f;
+        }
+      }
+    });
   std::vector<std::uint64_t> survivors;
   for (std::size_t cell = 0; cell < this->Shell.cells.size(); ++cell)
   {
@@ -458,12 +483,7 @@ std::uint64_t LatticeLabels::unlabelledOfBlock(std::uint64_t block, OctantCursor
   const std::ptrdiff_t first = this->Field->find(64 * block);
   if (first >= 0)
   {
-    std::uint64_t inside = 0;
-    for (std::size_t n = 0; n < 64; ++n)
-    {
-      inside |= std::uint64_t(this->Field->values()[std::size_t(first) + n] > 0.0f) << n;
-    }
-    return inside;
+    return positiveBits(&this->Field->values()[std::size_t(first)]);
   }
   return pointsTouching(block,
     [&](std::uint64_t other)

@@ -73,7 +73,7 @@ public:
    * Labels by a field, inside where it is positive; by the octree where the field has no values. The shell has
    * to hold every cell with corners of both signs and those of which field and octree tell different things.
    */
-  LatticeLabels(const Octree& octree, CornerShell shell, const BrickField& field);
+  LatticeLabels(const Octree& octree, CornerShell shell, const BrickField& field, Execution& execution);
 
   /** Take these cells (Morton codes, ascending) for the survivors, instead of the octree's intersection octants. */
   void setSurvivors(const std::vector<std::uint64_t>& cells);
@@ -98,7 +98,7 @@ public:
    * Take a shell that holds all cells of this one; labels, survivors and support stay, further corners get the
    * labels they have.
    */
-  void widen(CornerShell shell);
+  void widen(CornerShell shell, Execution& execution);
 
   /** Label of any lattice point. */
   bool insideAt(const LatticePoint& p) const;

@@ -91,7 +91,7 @@ void labelInside(LatticeLabels& labels, const std::vector<std::uint64_t>& points
   }
   if (!holdsAround(labels.shell(), points))
   {
-    labels.widen(extendedShell(labels.shell(), points, execution));
+    labels.widen(extendedShell(labels.shell(), points, execution), execution);
   }
   for (const std::uint64_t point : points)
   {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RobustLabels.h"
 
+#include "Bits.h"
+#include "BlockBits.h"
 #include "Carving.h"
 #include "CodeCursor.h"
+#include "IndicesWhere.h"
+#include "LabelCache.h"
 #include "LatticeRegions.h"
 #include "VotingMarchingCubes.h"
 
@@ -38,20 +42,22 @@ std::vector<std::uint64_t> disputedCells(const Octree& octree, const BrickField&
   execution.forRanges(found.size(), 8,
     [&](std::size_t first, std::size_t last)
     {
-      OctantCursor cursor(octree);
-      for (std::size_t n = first * BrickField::BrickPoints; n < last * BrickField::BrickPoints; ++n)
+      OctantCursor octants(octree);
+      for (std::size_t n = first * BrickField::BrickPoints; n < last * BrickField::BrickPoints; n += 64)
       {
-        const std::uint64_t code = field.code(n);
-        const LatticePoint cell = fromMorton(code);
-        if (!octree.lattice.hasCell(cell))
+        const std::uint64_t block = field.code(n) >> 6, inside = positiveBits(&field.values()[n]);
+        const auto in = [&](OctantState state)
+        { return octants.cellsOfBlock(block, [state](const Octree::Location& octant) { return octant.state == state; }); };
+        // Most blocks are alike, and what they are not need not be asked.
+        const std::uint64_t disputed =
+          (inside != 0 ? inside & in(OctantState::Background) : 0) | (~inside != 0 ? ~inside & in(OctantState::Inside) : 0);
+        for (std::uint64_t left = disputed; left != 0; left &= left - 1)
         {
-          continue;
-        }
-        const auto location = cursor.locate(cell);
-        const bool inside = field.values()[n] > 0.0f;
-        if ((inside && location.state == OctantState::Background) || (!inside && location.state == OctantState::Inside))
-        {
-          found[n / BrickField::BrickPoints].push_back(code);
+          const std::uint64_t cell = 64 * block + std::uint64_t(lowestBit(left));
+          if (octree.lattice.hasCell(fromMorton(cell)))
+          {
+            found[n / BrickField::BrickPoints].push_back(cell);
+          }
         }
       }
     });
@@ -125,20 +131,26 @@ void pinWhereBricksEnd(const Octree& octree, BrickField& field, Execution& execu
 }
 
 /** Last-generation inside octants of `octree` without an inside corner by the labels' source: they need covering too. */
-std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLabels& labels)
+std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLabels& labels, Execution& execution)
 {
-  std::vector<std::uint64_t> cells;
-  for (const std::uint64_t cell : leafCells(octree, OctantState::Inside))
+  const std::vector<std::uint64_t> inside = leafCells(octree, OctantState::Inside);
+  const auto makeTest = [&]
   {
-    bool inside = false;
-    for (int n = 0; n < 8; ++n)
+    return [&, cache = LabelCache(labels)](std::size_t n) mutable
     {
-      inside = inside || labels.insideAt(fromMorton(cell) + cornerOffset(n));
-    }
-    if (!inside)
-    {
-      cells.push_back(cell);
-    }
+      const LatticePoint lowest = fromMorton(inside[n]);
+      bool any = false;
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        any = any || cache.insideAt(lowest + cornerOffset(corner));
+      }
+      return !any;
+    };
+  };
+  std::vector<std::uint64_t> cells;
+  for (const std::int32_t n : indicesWhereTests(inside.size(), 4096, execution, makeTest))
+  {
+    cells.push_back(inside[std::size_t(n)]);
   }
   return cells;
 }
@@ -146,7 +158,7 @@ std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLa
 LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const PreparedViews& views, const CorrectedCapture& capture,
   Execution& execution)
 {
-  return capture.correction.field ? LatticeLabels(octree, std::move(shell), *capture.correction.field)
+  return capture.correction.field ? LatticeLabels(octree, std::move(shell), *capture.correction.field, execution)
                                   : LatticeLabels(octree, std::move(shell), views, execution);
 }
 
@@ -243,7 +255,7 @@ LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std
   }
   CornerShell wide = extendedShell(makeCornerShell(std::move(cells), execution), points, execution);
   LatticeLabels labels = makeLabels(base, wide, used, capture, execution);
-  const auto disowned = disownedOctants(octree, labels);
+  const auto disowned = disownedOctants(octree, labels, execution);
   if (!disowned.empty())
   {
     survivors = united(survivors, disowned);

@@ -44,7 +44,7 @@ struct LabelledSolid
     {
       this->field.values()[n] = float(value(fromMorton(this->field.code(n))));
     }
-    this->labels = std::make_unique<LatticeLabels>(this->octree, makeCornerShell(cells, this->execution), this->field);
+    this->labels = std::make_unique<LatticeLabels>(this->octree, makeCornerShell(cells, this->execution), this->field, this->execution);
   }
 
   void fill(const std::vector<std::uint64_t>& points)

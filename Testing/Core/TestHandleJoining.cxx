@@ -223,7 +223,7 @@ TEST(HandleJoining, DoesWhatOneCornerAfterAnotherDoes)
         }
       }
     }
-    LatticeLabels labels(solid.octree, makeCornerShell(cells, solid.execution), solid.field);
+    LatticeLabels labels(solid.octree, makeCornerShell(cells, solid.execution), solid.field, solid.execution);
     labels.setSurvivors(survivors);
     for (const double deficit : { 0.0, 0.15, 0.5 })
     {

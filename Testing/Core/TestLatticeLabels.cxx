@@ -103,7 +103,7 @@ TEST(LatticeLabels, OfManyPointsAtOnceAreThoseOfEach)
   {
     value = float(random.uniform(-1.0, 1.0));
   }
-  const LatticeLabels byField(scene.octree, scene.shell, field);
+  const LatticeLabels byField(scene.octree, scene.shell, field, scene.execution);
   for (const LatticeLabels* labels : { &std::as_const(voted), &byField })
   {
     std::size_t inside = 0;

@@ -156,7 +156,7 @@ TEST(LatticeRegions, CavitiesOfAFieldThatReachesIntoBackgroundOctantsAgreeWithFl
     }
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    LatticeLabels labels(octree, makeCornerShell(cells, execution), field);
+    LatticeLabels labels(octree, makeCornerShell(cells, execution), field, execution);
     const auto outside = [&](const LatticePoint& p) { return !labels.insideAt(p); };
     const int cavities = floodComponents(n + 1, 1, outside) - 1;
     found += cavities;
