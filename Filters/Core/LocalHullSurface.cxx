@@ -89,9 +89,10 @@ void labelInside(LatticeLabels& labels, const std::vector<std::uint64_t>& points
   {
     return;
   }
-  if (!holdsAround(labels.shell(), points))
+  const auto missing = cellsMissingAround(labels.shell(), points);
+  if (!missing.empty())
   {
-    labels.widen(extendedShell(labels.shell(), points, execution), execution);
+    labels.widen(withCells(labels.shell(), missing, execution), execution);
   }
   for (const std::uint64_t point : points)
   {
@@ -193,9 +194,10 @@ void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const 
 {
   const Lattice& lattice = labels.octree().lattice;
   std::optional<CornerShell> extended;
-  if (!holdsAround(labels.shell(), added))
+  const auto missing = cellsMissingAround(labels.shell(), added);
+  if (!missing.empty())
   {
-    extended = extendedShell(labels.shell(), added, execution);
+    extended = withCells(labels.shell(), missing, execution);
   }
   const CornerShell& shell = extended ? *extended : labels.shell();
   const std::vector<std::uint8_t> inside = labelsOf(labels, shell, execution);

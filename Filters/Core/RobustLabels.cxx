@@ -164,24 +164,9 @@ LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const Prepared
 
 } // namespace
 
-bool holdsAround(const CornerShell& shell, const std::vector<std::uint64_t>& points)
+std::vector<std::uint64_t> cellsMissingAround(const CornerShell& shell, const std::vector<std::uint64_t>& points)
 {
-  return std::all_of(points.begin(), points.end(),
-    [&](std::uint64_t point)
-    {
-      bool holds = true;
-      for (int n = 0; n < 8 && holds; ++n)
-      {
-        const LatticePoint p = fromMorton(point), o = cornerOffset(n);
-        holds = shell.findCell({ p.i - o.i, p.j - o.j, p.k - o.k }) >= 0;
-      }
-      return holds;
-    });
-}
-
-CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
-{
-  std::vector<std::uint64_t> around;
+  std::vector<std::uint64_t> missing;
   CodeCursor known(shell.cells);
   for (const std::uint64_t point : points)
   {
@@ -192,12 +177,17 @@ CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint6
       const std::uint64_t cell = mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k });
       if (known.find(cell) < 0)
       {
-        around.push_back(cell);
+        missing.push_back(cell);
       }
     }
   }
-  sortUnique(around);
-  return withCells(shell, around, execution);
+  sortUnique(missing);
+  return missing;
+}
+
+CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
+{
+  return withCells(shell, cellsMissingAround(shell, points), execution);
 }
 
 CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, const CornerShell& shell, const PreparedViews& views,
@@ -253,13 +243,18 @@ LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std
   {
     cells = united(united(cells, field->mixedCells(execution)), disputedCells(base, *field, execution));
   }
-  CornerShell wide = extendedShell(makeCornerShell(std::move(cells), execution), points, execution);
-  LatticeLabels labels = makeLabels(base, wide, used, capture, execution);
+  CornerShell wide = makeCornerShell(std::move(cells), execution);
+  const auto missing = cellsMissingAround(wide, points);
+  if (!missing.empty())
+  {
+    wide = withCells(wide, missing, execution);
+  }
+  LatticeLabels labels = makeLabels(base, std::move(wide), used, capture, execution);
   const auto disowned = disownedOctants(octree, labels, execution);
   if (!disowned.empty())
   {
     survivors = united(survivors, disowned);
-    labels = makeLabels(base, withCells(wide, disowned, execution), used, capture, execution);
+    labels = makeLabels(base, withCells(labels.shell(), disowned, execution), used, capture, execution);
   }
   labels.setSurvivors(survivors);
   dropUnsupported(labels, execution);

@@ -36,10 +36,10 @@ CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, con
 LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint64_t>& points,
   const PreparedViews& views, const CorrectedCapture& capture, Execution& execution);
 
-/** Does the shell hold the eight cells around each of the given points? */
-bool holdsAround(const CornerShell& shell, const std::vector<std::uint64_t>& points);
+/** Those of the eight cells around each of the given points, none of which is on the border, that the shell does not hold; ascending, each once. */
+std::vector<std::uint64_t> cellsMissingAround(const CornerShell& shell, const std::vector<std::uint64_t>& points);
 
-/** The shell with the eight cells around each of the given points, none of which is on the border. */
+/** The shell with these cells. */
 CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution);
 
 } // namespace silhouette

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <set>
 
 using namespace silhouette;
@@ -314,6 +316,10 @@ TEST(RobustLabels, TheExtendedShellHasTheEightCellsAroundEachPoint)
   EXPECT_EQ(wide.cells, std::vector<std::uint64_t>(expected.begin(), expected.end()));
   EXPECT_EQ(wide.cellCorners.size(), wide.cells.size());
   EXPECT_EQ(extendedShell(shell, {}, execution).corners, shell.corners);
+  std::vector<std::uint64_t> missing;
+  std::set_difference(expected.begin(), expected.end(), shell.cells.begin(), shell.cells.end(), std::back_inserter(missing));
+  EXPECT_EQ(cellsMissingAround(shell, points), missing);
+  EXPECT_TRUE(cellsMissingAround(wide, points).empty());
 }
 
 TEST(RobustLabels, SameForAnyNumberOfThreadsAndItCanBeCancelled)
