@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TunnelFilling.h"
 
+#include "CodeCursor.h"
 #include "Error.h"
 #include "NarrowOutside.h"
 #include "SimplePoint.h"
@@ -13,6 +14,7 @@
 #include <optional>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 namespace silhouette
 {
@@ -95,7 +97,19 @@ public:
     , Outside(parts)
     , Width(width)
     , Run(execution)
+    , Supports(parts.size())
+    , IsInFront(parts.size(), 0)
   {
+    execution.forRanges(parts.size(), 1024,
+      [&](std::size_t first, std::size_t last)
+      {
+        CodeCursor shell(labels.shell().corners);
+        for (std::size_t n = first; n < last; ++n)
+        {
+          const std::ptrdiff_t corner = shell.find(parts.code(n));
+          this->Supports[n] = corner >= 0 ? labels.support()[std::size_t(corner)] : -1e30f;
+        }
+      });
     for (std::size_t n = 0; n < parts.size(); ++n)
     {
       if (parts[n] == Narrow)
@@ -112,6 +126,7 @@ public:
     {
       const std::size_t n = std::get<2>(this->Front.top());
       this->Front.pop();
+      this->IsInFront[n] = 0;
       if (this->Outside[n] == Narrow && this->mayTake(n))
       {
         this->take(n);
@@ -150,7 +165,7 @@ public:
   /** Open a wall where least speaks for it, and go on. */
   void open(const std::vector<std::size_t>& wall)
   {
-    const auto weaker = [&](std::size_t a, std::size_t b) { return this->support(a) < this->support(b); };
+    const auto weaker = [&](std::size_t a, std::size_t b) { return this->Supports[a] < this->Supports[b]; };
     this->take(*std::min_element(wall.begin(), wall.end(), weaker));
     this->run();
   }
@@ -187,13 +202,13 @@ private:
     }
   }
 
-  float support(std::size_t n) const
+  void push(std::size_t n)
   {
-    const std::ptrdiff_t corner = this->Labels.shell().find(this->Outside.code(n));
-    return corner >= 0 ? this->Labels.support()[corner] : -1e30f;
+    if (!std::exchange(this->IsInFront[n], std::uint8_t(1)))
+    {
+      this->Front.emplace(-this->Supports[n], -std::ptrdiff_t(n), n);
+    }
   }
-
-  void push(std::size_t n) { this->Front.emplace(-this->support(n), -std::ptrdiff_t(n), n); }
 
   /** Into how many parts the wide outside beside a point falls, if no way but through the points within two octants counts. */
   int partsNearby(const LatticePoint& p) const
@@ -293,8 +308,10 @@ private:
   Execution& Run;
   std::optional<WideOutside> Sets; ///< what of the wide outside is connected; nothing until it is asked for
   std::vector<std::size_t> Remaining;
+  std::vector<float> Supports; ///< how much speaks for each point's being inside
   /** Least support first, then the first in lattice order. */
   std::priority_queue<std::tuple<float, std::ptrdiff_t, std::size_t>> Front;
+  std::vector<std::uint8_t> IsInFront;
 };
 
 /** By how much the solid's Euler number rises where a wall is added to it: by 1 for each tunnel that it closes. */
