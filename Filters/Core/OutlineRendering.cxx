@@ -273,10 +273,8 @@ std::vector<std::uint64_t> facedByTriangles(const Mesh& mesh, const Facing& faci
 /** Which edges are outlines, for each of some cameras. They come in any order: windings are sums of whole numbers. */
 struct OutlineCollection
 {
-  using Segments = std::vector<std::vector<OutlineSegment>>; ///< for each camera
-
   const std::vector<std::uint64_t>& faced; ///< by triangles
-  Segments ofCameras;
+  std::vector<OutlineLists> ofCameras;
   std::mutex adding;
 
   OutlineCollection(const std::vector<std::uint64_t>& cameras, std::size_t count)
@@ -308,8 +306,10 @@ struct OutlineCollection
         const std::lock_guard<std::mutex> lock(this->All->adding);
         for (std::size_t camera = 0; camera < this->Own.size(); ++camera)
         {
-          auto& all = this->All->ofCameras[camera];
-          all.insert(all.end(), this->Own[camera].begin(), this->Own[camera].end());
+          if (!this->Own[camera].empty())
+          {
+            this->All->ofCameras[camera].push_back(std::move(this->Own[camera]));
+          }
         }
       }
     }
@@ -326,7 +326,7 @@ struct OutlineCollection
 
   private:
     OutlineCollection* All;
-    Segments Own;
+    OutlineLists Own; ///< a list for each camera
   };
 };
 
@@ -387,23 +387,25 @@ SilhouetteRuns OutlineRenderer::render(std::size_t n) const
   }
   Windings windings(camera.width, camera.height);
   SegmentBatch batch;
-  const auto& segments = this->Outlines[n];
-  for (std::size_t first = 0; first < segments.size(); first += Batch)
+  for (const auto& segments : this->Outlines[n])
   {
-    batch.count = std::min(Batch, segments.size() - first);
-    for (std::size_t i = 0; i < batch.count; ++i)
+    for (std::size_t first = 0; first < segments.size(); first += Batch)
     {
-      const OutlineSegment& segment = segments[first + i];
-      const Vector3 &from = this->TheMesh.points[std::size_t(segment.from)], &to = this->TheMesh.points[std::size_t(segment.to)];
-      for (int axis = 0; axis < 3; ++axis)
+      batch.count = std::min(Batch, segments.size() - first);
+      for (std::size_t i = 0; i < batch.count; ++i)
       {
-        batch.ends[0][axis][i] = from[axis];
-        batch.ends[1][axis][i] = to[axis];
+        const OutlineSegment& segment = segments[first + i];
+        const Vector3 &from = this->TheMesh.points[std::size_t(segment.from)], &to = this->TheMesh.points[std::size_t(segment.to)];
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          batch.ends[0][axis][i] = from[axis];
+          batch.ends[1][axis][i] = to[axis];
+        }
+        batch.change[i] = segment.sign;
       }
-      batch.change[i] = segment.sign;
+      projectSegments(projection, camera.height, batch);
+      windings.add(batch);
     }
-    projectSegments(projection, camera.height, batch);
-    windings.add(batch);
   }
   return windings.runs();
 }

@@ -31,6 +31,9 @@ struct OutlineSegment
   int sign;
 };
 
+/** Segments as they were found side by side, lists of them. */
+using OutlineLists = std::vector<std::vector<OutlineSegment>>;
+
 class OutlineRenderer
 {
 public:
@@ -55,7 +58,7 @@ private:
   const Mesh& TheMesh;
   std::vector<ImageCamera> Cameras;
   std::vector<std::uint8_t> InFront; ///< for each camera 1 where all points are in front of it, and not near its plane
-  std::vector<std::vector<OutlineSegment>> Outlines; ///< of each camera
+  std::vector<OutlineLists> Outlines; ///< of each camera
 };
 
 } // namespace silhouette
