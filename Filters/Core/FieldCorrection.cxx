@@ -356,32 +356,49 @@ private:
     const double widest = this->Views.lattice().cells(); // whatever is asked for
     const double sigma = std::min({ this->Options.greatestSmoothing * this->Length.proportion,
       std::min(this->Options.smoothing, widest) * deficit, widest });
-    BrickField model = this->Least;
-    for (std::size_t n = 0; n < model.size(); ++n)
-    {
-      model.values()[n] = std::min(this->Ranked[n], model.values()[n] + float(2.0 * deficit));
-    }
-    smoothGently(model, sigma, deficit * this->Options.gentleness, execution);
+    this->makeModel(deficit, execution);
+    smoothGently(this->Least, sigma, deficit * this->Options.gentleness, execution);
     execution.checkpoint(0.75);
-    Mesh surface = model.contourMesh(execution);
-    result.hull = applyHullBase(model, surface, this->Options.hullConvexity, this->Band, execution);
+    Mesh surface = this->Least.contourMesh(execution);
+    result.hull = applyHullBase(this->Least, surface, this->Options.hullConvexity, this->Band, execution);
     if (result.hull.applied)
     {
-      surface = model.contourMesh(execution);
+      surface = this->Least.contourMesh(execution);
     }
-    const auto maps = this->Views.distances(surface, execution);
+    this->Least.values() = this->agreedValues(this->Views.distances(surface, execution), execution);
+    smoothGently(this->Least, sigma, deficit * this->Options.gentleness, execution);
+  }
+
+  /** From the two kinds of distances, the second of which are given up. */
+  void makeModel(double deficit, Execution& execution)
+  {
+    std::vector<float>& values = this->Least.values();
+    execution.forRanges(values.size(), 1 << 16,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t n = first; n < last; ++n)
+        {
+          values[n] = std::min(this->Ranked[n], values[n] + float(2.0 * deficit));
+        }
+      });
+    std::vector<float>().swap(this->Ranked);
+  }
+
+  /** What the model's field is to be where its views agree; `maps`: the distances in the model's silhouettes. */
+  std::vector<float> agreedValues(const std::vector<DistanceMap>& maps, Execution& execution) const
+  {
     execution.checkpoint(0.85);
-    this->Least.values() = model.values();
+    const std::vector<float>& model = this->Least.values();
+    std::vector<float> values = model;
     const float band = float(this->Band);
     const auto inBand = [&](float value) { return std::abs(value) < band; };
-    const auto concerns = [&](std::size_t block)
-    { return std::any_of(&model.values()[block], &model.values()[block] + BlockPoints, inBand); };
+    const auto concerns = [&](std::size_t block) { return std::any_of(&model[block], &model[block] + BlockPoints, inBand); };
     const auto makeWork = [&]
     {
       return [&, own = std::vector<float>(maps.size() * BlockPoints), seen = std::vector<float>(maps.size() * BlockPoints)](
                std::size_t block, const std::vector<Near>& near) mutable
       {
-        const LatticePoint lowest = fromMorton(model.code(block));
+        const LatticePoint lowest = fromMorton(this->Least.code(block));
         for (std::size_t i = 0; i < near.size(); ++i)
         {
           const auto& [view, region] = near[i];
@@ -393,16 +410,16 @@ private:
         const bool atBorder = this->touchesBorder(lowest);
         for (std::size_t n = 0; n < BlockPoints; ++n)
         {
-          if (inBand(model.values()[block + n]))
+          if (inBand(model[block + n]))
           {
             const bool border = atBorder && this->Views.lattice().onBorder(lowest + fromMorton(n));
-            this->Least.values()[block + n] = border ? -float(this->Views.reach()) : agreed[n];
+            values[block + n] = border ? -float(this->Views.reach()) : agreed[n];
           }
         }
       };
     };
     this->forBlocks(&maps, concerns, makeWork, execution);
-    smoothGently(this->Least, sigma, deficit * this->Options.gentleness, execution);
+    return values;
   }
 
   /** Smooth, but change no value by more than `most`: noise is no larger, thin parts are. */
@@ -410,10 +427,14 @@ private:
   {
     const std::vector<float> before = field.values();
     field.smooth(sigma, execution);
-    for (std::size_t n = 0; n < before.size(); ++n)
-    {
-      field.values()[n] = std::clamp(field.values()[n], before[n] - float(most), before[n] + float(most));
-    }
+    execution.forRanges(before.size(), 1 << 16,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t n = first; n < last; ++n)
+        {
+          field.values()[n] = std::clamp(field.values()[n], before[n] - float(most), before[n] + float(most));
+        }
+      });
   }
 
   /**
