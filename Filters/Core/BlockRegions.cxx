@@ -2,11 +2,10 @@
 #include "BlockRegions.h"
 
 #include "Bits.h"
-#include "BlockBits.h"
+#include "BlockSteps.h"
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
 
 namespace silhouette
 {
@@ -15,85 +14,7 @@ namespace
 
 constexpr int BlockHalvings = 2; ///< from a block to a cell
 
-/** The points of a block, and those one step before and behind on an axis. */
-std::uint64_t spread(std::uint64_t points, int axis)
-{
-  return points | fromAhead(points, 0, axis) | fromBehind(points, 0, axis);
-}
-
-/** The points of a block, and their neighbours in it. */
-std::uint64_t withNeighbours(std::uint64_t points, Steps steps)
-{
-  const std::uint64_t alongX = spread(points, 0), alongY = spread(points, 1);
-  switch (steps)
-  {
-    case Steps::Faces:
-      return alongX | alongY | spread(points, 2);
-    case Steps::Edges:
-      return spread(alongX, 1) | spread(alongX | alongY, 2);
-    default:
-      return spread(spread(alongX, 1), 2);
-  }
-}
-
-/** Those of `points` that meet the lowest of them. */
-std::uint64_t partOfLowest(std::uint64_t points, Steps steps)
-{
-  std::uint64_t part = points & (0 - points);
-  for (std::uint64_t before = 0; before != part;)
-  {
-    before = part;
-    part = withNeighbours(part, steps) & points;
-  }
-  return part;
-}
-
 } // namespace
-
-/** To one of the blocks around a block. */
-struct BlockRegions::Direction
-{
-  LatticePoint step;
-  int spreads = 0; ///< so many further coordinates of neighbours may differ
-
-  Direction(int n, Steps steps)
-    : step(neighbourOf({ 0, 0, 0 }, n))
-    , spreads(int(steps) - std::abs(this->step.i) - std::abs(this->step.j) - std::abs(this->step.k))
-  {
-  }
-
-  /** Where the points of a block come to lie in the block in this direction, if they go one step. */
-  std::uint64_t moved(std::uint64_t points) const
-  {
-    const int steps[3] = { this->step.i, this->step.j, this->step.k };
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      points = steps[axis] > 0 ? fromBehind(0, points, axis) : steps[axis] < 0 ? fromAhead(0, points, axis) : points;
-    }
-    return points;
-  }
-
-  /** All neighbours in that block. */
-  std::uint64_t reached(std::uint64_t points) const
-  {
-    const std::uint64_t there = this->moved(points);
-    if (this->spreads == 0 || there == 0)
-    {
-      return there;
-    }
-    const int steps[3] = { this->step.i, this->step.j, this->step.k };
-    std::uint64_t one = there, several = there; // of the coordinates that are left, and of as many as there are
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      if (steps[axis] == 0)
-      {
-        one |= spread(there, axis);
-        several = spread(several, axis);
-      }
-    }
-    return this->spreads == 1 ? one : several;
-  }
-};
 
 BlockRegions::BlockRegions(const Octree& octree, OctantState state, Steps steps, BlockIndex blocks, const std::vector<std::uint64_t>& members,
   std::size_t others, Execution& execution)
@@ -261,7 +182,7 @@ private:
 };
 
 /** Join a block's parts to what lies in a direction where there is no block. */
-void BlockRegions::joinElsewhere(std::size_t block, const BlocksAround& around, const Direction& direction, OctantCursor& cursor)
+void BlockRegions::joinElsewhere(std::size_t block, const BlocksAround& around, const BlockDirection& direction, OctantCursor& cursor)
 {
   std::uint32_t number = this->WithBeyond ? this->Beyond : None;
   if (around.isOfCells(direction.step))
@@ -283,10 +204,10 @@ void BlockRegions::joinElsewhere(std::size_t block, const BlocksAround& around, 
  */
 void BlockRegions::joinBlocks(Steps steps, Execution& execution)
 {
-  std::vector<Direction> ahead, behind;
+  std::vector<BlockDirection> ahead, behind;
   for (int n = 0; n < 27; ++n)
   {
-    const Direction direction(n, steps);
+    const BlockDirection direction(n, steps);
     if (n != 13 && direction.spreads >= 0)
     {
       (n > 13 ? ahead : behind).push_back(direction);

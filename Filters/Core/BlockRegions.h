@@ -6,6 +6,7 @@
 #pragma once
 
 #include "BlockIndex.h"
+#include "BlockSteps.h"
 #include "ConcurrentUnionFind.h"
 #include "Octree.h"
 
@@ -13,14 +14,6 @@
 
 namespace silhouette
 {
-
-/** In how many coordinates neighbours may differ, by one. */
-enum class Steps : int
-{
-  Faces = 1,
-  Edges = 2,
-  Corners = 3
-};
 
 /** Sets of parts of blocks, octants, the world beyond the root cube, and other numbers that are the caller's to join. */
 class BlockRegions
@@ -64,14 +57,13 @@ public:
   void unite(std::uint32_t a, std::uint32_t b) { this->Sets.unite(a, b); }
 
 private:
-  struct Direction;
   class BlocksAround;
 
   void findParts(Steps steps, const std::vector<std::uint64_t>& members, Execution& execution);
   void findOctants(OctantState state, Execution& execution);
   void joinOctants(Execution& execution);
   void joinBlocks(Steps steps, Execution& execution);
-  void joinElsewhere(std::size_t block, const BlocksAround& around, const Direction& direction, OctantCursor& cursor);
+  void joinElsewhere(std::size_t block, const BlocksAround& around, const BlockDirection& direction, OctantCursor& cursor);
   void joinPoints(std::size_t block, std::uint64_t points, std::uint32_t number);
 
   const Octree* Source;

@@ -2,7 +2,7 @@
 #include "PointBlocks.h"
 
 #include "Bits.h"
-#include "BlockBits.h"
+#include "BlockSteps.h"
 
 #include <algorithm>
 
@@ -86,7 +86,7 @@ PointBlocks PointBlocks::spread(int axis) const
   {
     const std::uint64_t points = block.points;
     std::uint64_t other = 0;
-    block.points |= fromAhead(points, 0, axis) | fromBehind(points, 0, axis);
+    block.points = spreadInBlock(points, axis);
     for (const bool ahead : { true, false })
     {
       const std::uint64_t there = ahead ? fromBehind(0, points, axis) : fromAhead(0, points, axis);

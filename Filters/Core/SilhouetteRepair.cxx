@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SilhouetteRepair.h"
 
-#include "CodeCursor.h"
-#include "ConcurrentUnionFind.h"
+#include "PointComponents.h"
 #include "RejectedCorners.h"
 #include "SilhouetteDissent.h"
 #include "SilhouetteSpeckles.h"
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace silhouette
 {
@@ -65,54 +63,13 @@ bool isDeep(const LatticeViews& views, const Rejected& rejected, double depth)
   return true;
 }
 
-/**
- * Components of corners of one view each, sorted as findRejected does, that are neighbours along edges or
- * diagonals.
- */
-ConcurrentUnionFind componentsOf(const std::vector<Rejected>& corners, int views, Execution& execution)
+/** Squares of an octant's size of a view's image that hold one of the corners. */
+std::size_t imageArea(const LatticeProjection& projection, const std::vector<std::uint64_t>& corners, double pixels)
 {
-  std::vector<std::uint64_t> codes;
-  std::vector<std::size_t> start{ 0 }; // of each view's corners
-  for (const Rejected& corner : corners)
-  {
-    start.resize(std::size_t(corner.view) + 1, codes.size());
-    codes.push_back(corner.corner);
-  }
-  start.resize(std::size_t(views) + 1, codes.size());
-  ConcurrentUnionFind components(corners.size(), execution);
-  execution.forRanges(corners.size(), 1024,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t c = first; c < last;)
-      {
-        const std::size_t begin = start[std::size_t(corners[c].view)], end = start[std::size_t(corners[c].view) + 1];
-        CodeCursor ofView(codes.data() + begin, codes.data() + end);
-        for (; c < std::min(end, last); ++c)
-        {
-          const LatticePoint p = fromMorton(codes[c]);
-          for (int n = 14; n < 27; ++n) // the thirteen neighbours that follow 13, the corner itself
-          {
-            const LatticePoint q = neighbourOf(p, n);
-            const std::ptrdiff_t at = std::min({ q.i, q.j, q.k }) < 0 ? -1 : ofView.find(mortonCode(q));
-            if (at >= 0)
-            {
-              components.unite(std::uint32_t(c), std::uint32_t(begin) + std::uint32_t(at));
-            }
-          }
-        }
-      }
-    });
-  return components;
-}
-
-/** Squares of an octant's size of the view's image that hold one of the corners. */
-std::size_t imageArea(const LatticeViews& views, const std::vector<Rejected>& corners, double pixels)
-{
-  const LatticeProjection& projection = views.projection(corners.front().view);
   std::vector<std::uint64_t> squares;
-  for (const Rejected& rejected : corners)
+  for (const std::uint64_t corner : corners)
   {
-    const auto h = projection(fromMorton(rejected.corner));
+    const auto h = projection(fromMorton(corner));
     const auto column = std::int32_t(std::floor(h.U / h.W / pixels)),
                row = std::int32_t(std::floor(h.V / h.W / pixels));
     squares.push_back(std::uint64_t(std::uint32_t(column)) << 32 | std::uint32_t(row));
@@ -121,33 +78,30 @@ std::size_t imageArea(const LatticeViews& views, const std::vector<Rejected>& co
   return squares.size();
 }
 
-/** The corners of those of the large components that are long along the view, by view. */
-std::vector<std::vector<std::uint64_t>> longAlongTheView(const LatticeViews& views,
-                                                         const std::vector<std::vector<Rejected>>& components,
-                                                         const SurvivorBox& box,
-                                                         const SilhouetteRepairOptions& options)
+/**
+ * Of the corners that one view rejects, ascending, those of its blobs: of the large components, neighbours along edges and diagonals being together, that
+ * are long along the view.
+ */
+std::vector<std::uint64_t> longAlongTheView(const LatticeViews& views, int view, const std::vector<std::uint64_t>& corners,
+                                            const SurvivorBox& box, const SilhouetteRepairOptions& options)
 {
-  std::vector<double> chords(components.size());
-  std::vector<double> longest(views.size(), -1.0);
-  for (std::size_t c = 0; c < components.size(); ++c)
+  const LatticeProjection& projection = views.projection(view);
+  const auto components = pointComponents(corners, Steps::Corners, std::size_t(options.blobCorners));
+  std::vector<double> chords;
+  for (const auto& component : components)
   {
-    const Rejected& any = components[c].front();
-    const double pixels = pixelsPerOctant(views.projection(any.view), fromMorton(any.corner));
-    chords[c] = double(components[c].size()) / double(imageArea(views, components[c], pixels));
-    longest[any.view] = std::max(longest[any.view], chords[c]);
+    const double pixels = pixelsPerOctant(projection, fromMorton(component.front()));
+    chords.push_back(double(component.size()) / double(imageArea(projection, component, pixels)));
   }
   const double chord = std::max(options.blobChord, FewViewsChord / views.size()) * box.extent;
-  std::vector<std::vector<std::uint64_t>> blobs(views.size());
-  for (std::size_t c = 0; c < components.size(); ++c)
+  std::vector<std::uint64_t> blobs;
+  // A view that is wrong elsewhere is trusted less: where a disc crosses the contour, its chord is short.
+  const bool isWrong = std::any_of(chords.begin(), chords.end(), [&](double own) { return own >= chord; });
+  for (std::size_t c = 0; c < components.size() && isWrong; ++c)
   {
-    const int view = components[c].front().view;
-    // A view that is wrong elsewhere is trusted less: where a disc crosses the contour, its chord is short.
-    if (longest[view] >= chord && chords[c] >= WrongViewChord * chord)
+    if (chords[c] >= WrongViewChord * chord)
     {
-      for (const Rejected& corner : components[c])
-      {
-        blobs[view].push_back(corner.corner);
-      }
+      blobs.insert(blobs.end(), components[c].begin(), components[c].end());
     }
   }
   return blobs;
@@ -159,7 +113,7 @@ std::vector<std::vector<std::uint64_t>> findBlobs(const Octree& octree, const La
                                                   const SilhouetteRepairOptions& options,
                                                   KnownVotes::Votes& votes, Execution& execution)
 {
-  std::vector<Rejected> corners = findRejected(octree, views, shell, votes, execution);
+  const std::vector<Rejected> corners = findRejected(octree, views, shell, votes, execution);
   std::vector<std::uint8_t> deep(corners.size(), 0);
   const double depth = std::max(options.blobDepth, FewViewsDepth / (double(views.size()) * views.size()));
   execution.forRanges(corners.size(), 1024,
@@ -170,34 +124,24 @@ std::vector<std::vector<std::uint64_t>> findBlobs(const Octree& octree, const La
                           deep[c] = isDeep(views, corners[c], depth) ? 1 : 0;
                         }
                       });
-  const Rejected* start = corners.data();
-  corners.erase(std::remove_if(corners.begin(), corners.end(),
-                               [&](const Rejected& c) { return deep[&c - start] == 0; }),
-                corners.end());
-
-  ConcurrentUnionFind components = componentsOf(corners, views.size(), execution);
-  // Of each large component its members, the components in the order of their first.
-  std::vector<std::uint32_t> sizes(corners.size(), 0);
-  for (std::uint32_t c = 0; c < corners.size(); ++c)
+  std::vector<std::vector<std::uint64_t>> ofViews(std::size_t(views.size()));
+  for (std::size_t c = 0; c < corners.size(); ++c)
   {
-    ++sizes[components.find(c)];
-  }
-  std::unordered_map<std::uint32_t, std::size_t> places;
-  std::vector<std::vector<Rejected>> members;
-  for (std::uint32_t c = 0; c < corners.size(); ++c)
-  {
-    const std::uint32_t first = components.find(c);
-    if (sizes[first] >= std::uint32_t(options.blobCorners))
+    if (deep[c] != 0)
     {
-      const auto place = places.emplace(first, members.size());
-      if (place.second)
-      {
-        members.emplace_back();
-      }
-      members[place.first->second].push_back(corners[c]);
+      ofViews[std::size_t(corners[c].view)].push_back(corners[c].corner);
     }
   }
-  return longAlongTheView(views, members, box, options);
+  std::vector<std::vector<std::uint64_t>> blobs(ofViews.size());
+  execution.forRanges(ofViews.size(), 1,
+                      [&](std::size_t first, std::size_t last)
+                      {
+                        for (std::size_t view = first; view < last; ++view)
+                        {
+                          blobs[view] = longAlongTheView(views, int(view), ofViews[view], box, options);
+                        }
+                      });
+  return blobs;
 }
 
 /** The corners within `reach` steps of the given ones. */
