@@ -155,6 +155,23 @@ std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLa
   return cells;
 }
 
+/** The eight cells around each of the given points, none of which is on the border; ascending, each once. */
+std::vector<std::uint64_t> cellsAround(const std::vector<std::uint64_t>& points)
+{
+  std::vector<std::uint64_t> cells;
+  for (const std::uint64_t point : points)
+  {
+    const LatticePoint p = fromMorton(point);
+    for (int n = 0; n < 8; ++n)
+    {
+      const LatticePoint o = cornerOffset(n);
+      cells.push_back(mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k }));
+    }
+  }
+  sortUnique(cells);
+  return cells;
+}
+
 LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const PreparedViews& views, const CorrectedCapture& capture,
   Execution& execution)
 {
@@ -166,23 +183,10 @@ LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const Prepared
 
 std::vector<std::uint64_t> cellsMissingAround(const CornerShell& shell, const std::vector<std::uint64_t>& points)
 {
-  std::vector<std::uint64_t> missing;
+  std::vector<std::uint64_t> cells = cellsAround(points);
   CodeCursor known(shell.cells);
-  for (const std::uint64_t point : points)
-  {
-    const LatticePoint p = fromMorton(point);
-    for (int n = 0; n < 8; ++n)
-    {
-      const LatticePoint o = cornerOffset(n);
-      const std::uint64_t cell = mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k });
-      if (known.find(cell) < 0)
-      {
-        missing.push_back(cell);
-      }
-    }
-  }
-  sortUnique(missing);
-  return missing;
+  cells.erase(std::remove_if(cells.begin(), cells.end(), [&](std::uint64_t cell) { return known.find(cell) >= 0; }), cells.end());
+  return cells;
 }
 
 CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
@@ -243,18 +247,15 @@ LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std
   {
     cells = united(united(cells, field->mixedCells(execution)), disputedCells(base, *field, execution));
   }
-  CornerShell wide = makeCornerShell(std::move(cells), execution);
-  const auto missing = cellsMissingAround(wide, points);
-  if (!missing.empty())
-  {
-    wide = withCells(wide, missing, execution);
-  }
-  LatticeLabels labels = makeLabels(base, std::move(wide), used, capture, execution);
+  cells = united(cells, cellsAround(points));
+  // A field tells about all corners, votes about those of a shell.
+  const bool isByField = capture.correction.field.has_value();
+  LatticeLabels labels = makeLabels(base, isByField ? CornerShell() : makeCornerShell(cells, execution), used, capture, execution);
   const auto disowned = disownedOctants(octree, labels, execution);
-  if (!disowned.empty())
+  if (isByField || !disowned.empty())
   {
     survivors = united(survivors, disowned);
-    labels = makeLabels(base, withCells(labels.shell(), disowned, execution), used, capture, execution);
+    labels = makeLabels(base, makeCornerShell(united(cells, disowned), execution), used, capture, execution);
   }
   labels.setSurvivors(survivors);
   dropUnsupported(labels, execution);
