@@ -78,10 +78,11 @@ float CornerEffects::support(std::uint32_t corner)
 std::array<std::ptrdiff_t, 27> CornerEffects::setInside(std::uint32_t corner)
 {
   this->Cache.setInside(this->Labels.shell().corners[corner]);
+  const CodesAround codes(this->point(corner));
   std::array<std::ptrdiff_t, 27> around;
   for (int n = 0; n < 27; ++n)
   {
-    around[n] = n != 13 ? this->Corners.find(mortonCode(neighbourOf(this->point(corner), n))) : -1;
+    around[n] = n != 13 ? this->Corners.find(codes[n]) : -1;
     if (around[n] >= 0)
     {
       this->Effects[std::size_t(around[n])] = NotAsked;

@@ -155,17 +155,22 @@ std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLa
   return cells;
 }
 
-/** The eight cells around each of the given points, none of which is on the border; ascending, each once. */
-std::vector<std::uint64_t> cellsAround(const std::vector<std::uint64_t>& points)
+/** Those of the eight cells around each of the given points, none of which is on the border, for which `isWanted(cell)` holds; ascending, each once. */
+template <typename IsWanted>
+std::vector<std::uint64_t> cellsAround(const std::vector<std::uint64_t>& points, const IsWanted& isWanted)
 {
   std::vector<std::uint64_t> cells;
   for (const std::uint64_t point : points)
   {
-    const LatticePoint p = fromMorton(point);
+    const CodesAround codes(fromMorton(point));
     for (int n = 0; n < 8; ++n)
     {
       const LatticePoint o = cornerOffset(n);
-      cells.push_back(mortonCode({ p.i - o.i, p.j - o.j, p.k - o.k }));
+      const std::uint64_t cell = codes[o.i + 3 * o.j + 9 * o.k];
+      if (isWanted(cell))
+      {
+        cells.push_back(cell);
+      }
     }
   }
   sortUnique(cells);
@@ -183,10 +188,8 @@ LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const Prepared
 
 std::vector<std::uint64_t> cellsMissingAround(const CornerShell& shell, const std::vector<std::uint64_t>& points)
 {
-  std::vector<std::uint64_t> cells = cellsAround(points);
   CodeCursor known(shell.cells);
-  cells.erase(std::remove_if(cells.begin(), cells.end(), [&](std::uint64_t cell) { return known.find(cell) >= 0; }), cells.end());
-  return cells;
+  return cellsAround(points, [&](std::uint64_t cell) { return known.find(cell) < 0; });
 }
 
 CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
@@ -247,7 +250,7 @@ LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std
   {
     cells = united(united(cells, field->mixedCells(execution)), disputedCells(base, *field, execution));
   }
-  cells = united(cells, cellsAround(points));
+  cells = united(cells, cellsAround(points, [](std::uint64_t) { return true; }));
   // A field tells about all corners, votes about those of a shell.
   const bool isByField = capture.correction.field.has_value();
   LatticeLabels labels = makeLabels(base, isByField ? CornerShell() : makeCornerShell(cells, execution), used, capture, execution);

@@ -44,29 +44,50 @@ public:
   {
     const LatticePoint lowest{ p.i - BlockSide / 2, p.j - BlockSide / 2, p.k - BlockSide / 2 };
     const LatticePoint block{ lowest.i >> 2, lowest.j >> 2, lowest.k >> 2 };
-    std::array<std::ptrdiff_t, 8> found;
-    bool any = false;
+    const int offsets[3] = { lowest.i & 3, lowest.j & 3, lowest.k & 3 };
+    std::array<std::uint32_t, 64> inOrder;
+    std::uint64_t found = 0; // of these, a bit each
     for (int n = 0; n < 8; ++n)
     {
       const LatticePoint b = block + cornerOffset(n);
-      found[std::size_t(n)] = std::min({ b.i, b.j, b.k }) < 0 ? -1 : this->Blocks.find(mortonCode(b));
-      any = any || found[std::size_t(n)] >= 0;
-    }
-    constexpr unsigned spread[4] = { 0, 1, 8, 9 }; // the bits of a coordinate within a block, for the first axis
-    for (int n = 0; n < 64 && any; ++n)
-    {
-      const LatticePoint q = lowest + LatticePoint{ n % 4, n / 4 % 4, n / 16 };
-      const int beyond = ((q.i >> 2) - block.i) | ((q.j >> 2) - block.j) << 1 | ((q.k >> 2) - block.k) << 2;
-      const std::ptrdiff_t at = found[std::size_t(beyond)];
-      const std::uint64_t bit = std::uint64_t(1) << (spread[q.i & 3] | spread[q.j & 3] << 1 | spread[q.k & 3] << 2);
-      if (at >= 0 && (this->Bits[std::size_t(at)] & bit) != 0)
+      const std::ptrdiff_t at = std::min({ b.i, b.j, b.k }) < 0 ? -1 : this->Blocks.find(mortonCode(b));
+      if (at < 0)
       {
-        work(this->Cells[this->First[std::size_t(at)] + std::size_t(countBits(this->Bits[std::size_t(at)] & (bit - 1)))]);
+        continue;
       }
+      const std::uint64_t all = this->Bits[std::size_t(at)];
+      std::uint64_t left = all;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const std::uint64_t from = pointsFrom(axis, offsets[axis]);
+        left &= (n >> axis & 1) == 0 ? from : ~from;
+      }
+      for (; left != 0; left &= left - 1)
+      {
+        const LatticePoint q = fromMorton(64 * mortonCode(b) + std::uint64_t(lowestBit(left)));
+        const int place = (q.i - lowest.i) + 4 * (q.j - lowest.j) + 16 * (q.k - lowest.k);
+        inOrder[std::size_t(place)] = this->Cells[this->First[std::size_t(at)] + std::size_t(countBits(all & ((left & (0 - left)) - 1)))];
+        found |= std::uint64_t(1) << place;
+      }
+    }
+    for (; found != 0; found &= found - 1)
+    {
+      work(inOrder[std::size_t(lowestBit(found))]);
     }
   }
 
 private:
+  /** The points of a block whose coordinate on an axis is `value`, 0 to 3 within it, or more. */
+  static std::uint64_t pointsFrom(int axis, int value)
+  {
+    static constexpr std::uint64_t points[3][4] = {
+      { ~std::uint64_t(0), ~blockSlab(0, 0), blockSlab(0, 2) | blockSlab(0, 3), blockSlab(0, 3) },
+      { ~std::uint64_t(0), ~blockSlab(1, 0), blockSlab(1, 2) | blockSlab(1, 3), blockSlab(1, 3) },
+      { ~std::uint64_t(0), ~blockSlab(2, 0), blockSlab(2, 2) | blockSlab(2, 3), blockSlab(2, 3) },
+    };
+    return points[axis][value];
+  }
+
   const std::vector<std::uint32_t>& Cells;
   BlockIndex Blocks;                 ///< those with such cells
   std::vector<std::uint64_t> Bits;   ///< those of a block
