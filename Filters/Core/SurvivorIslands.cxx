@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurvivorIslands.h"
 
+#include "ChildNumbering.h"
 #include "LatticeRegions.h"
 
 #include <algorithm>
@@ -63,15 +64,9 @@ void giveUp(Octree& octree, int generation, std::size_t index, DroppedSurvivors&
 }
 
 /** childBlock counts intersection octants, of which the last generation may have lost some; so have the votes of their corners. */
-void settle(Octree& octree, DroppedSurvivors& dropped)
+void settle(Octree& octree, DroppedSurvivors& dropped, Execution& execution)
 {
-  Generation& last = octree.generations.back();
-  std::uint32_t blocks = 0;
-  for (std::size_t i = 0; i < last.size(); ++i)
-  {
-    last.childBlock[i] = blocks;
-    blocks += last.state[i] == OctantState::Intersection;
-  }
+  numberChildren(octree.generations.back(), execution);
   octree.votes.set(nullptr);
   std::sort(dropped.leaves.begin(), dropped.leaves.end());
 }
@@ -107,7 +102,7 @@ Octree dropIslands(const Octree& octree, double share, DroppedSurvivors& dropped
         giveUp(kept, g, i, dropped);
       }
     });
-  settle(kept, dropped);
+  settle(kept, dropped, execution);
   execution.checkpoint(1.0);
   return kept;
 }
@@ -136,7 +131,8 @@ Octree dropLeaves(const Octree& octree, const std::vector<std::uint64_t>& leaves
       giveUp(kept, octree.lattice.depth, i, dropped);
     }
   }
-  settle(kept, dropped);
+  Execution alone;
+  settle(kept, dropped, alone);
   return kept;
 }
 
