@@ -4,31 +4,29 @@
 namespace silhouette
 {
 
-std::vector<Box> triangleBoxes(
-  const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles)
+BoxTree::BoxTree(const std::vector<Box>& boxes)
+  : BoxTree(boxes.size(), [&](std::size_t item) { return boxes[item]; })
 {
-  std::vector<Box> boxes;
-  boxes.reserve(triangles.size());
-  for (const Triangle& t : triangles)
-  {
-    boxes.push_back(triangleBox(points, t));
-  }
-  return boxes;
 }
 
-BoxTree::BoxTree(const std::vector<Box>& boxes)
+BoxTree::BoxTree(std::size_t count, const std::function<Box(std::size_t)>& boxOf)
 {
-  if (boxes.empty())
+  if (count == 0)
   {
     return;
   }
-  this->Slots.reserve(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i)
+  this->Slots.reserve(count);
+  for (std::size_t i = 0; i < count; ++i)
   {
-    this->Slots.push_back({ boxes[i], std::int32_t(i) });
+    this->Slots.push_back({ boxOf(i), std::int32_t(i) });
   }
-  this->Nodes.reserve(boxes.size());
-  this->build(this->Slots, 0, std::int32_t(boxes.size()));
+  this->Nodes.reserve(count);
+  this->build(this->Slots, 0, std::int32_t(count));
+}
+
+BoxTree triangleTree(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles)
+{
+  return BoxTree(triangles.size(), [&](std::size_t n) { return triangleBox(points, triangles[n]); });
 }
 
 void BoxTree::build(std::vector<Slot>& slots, std::int32_t first, std::int32_t last)

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -33,14 +34,12 @@ inline Box triangleBox(const std::vector<Eigen::Vector3d>& points, const Triangl
   return box;
 }
 
-/** The box of each triangle. */
-std::vector<Box> triangleBoxes(
-  const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles);
-
 class BoxTree
 {
 public:
   explicit BoxTree(const std::vector<Box>& boxes);
+  /** The same of `count` boxes that are made one after another. */
+  BoxTree(std::size_t count, const std::function<Box(std::size_t)>& boxOf);
 
   /** Number of leaves; together they hold each box once. */
   std::size_t leafCount() const { return this->Leaves.size(); }
@@ -117,6 +116,9 @@ private:
   std::vector<Slot> Slots;
   std::vector<std::int32_t> Leaves;
 };
+
+/** The tree of the boxes of triangles. */
+BoxTree triangleTree(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles);
 
 template <typename VisitLeaf>
 void BoxTree::descend(const Box& box, std::int32_t from, VisitLeaf&& visitLeaf) const

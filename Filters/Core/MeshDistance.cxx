@@ -184,7 +184,7 @@ Sums sampleAll(const Mesh& from, const DistanceTarget& target, double spacing, E
 
 DistanceTarget::DistanceTarget(const Mesh& surface)
   : Surface(checkedSurface(surface))
-  , Tree(triangleBoxes(surface.points, surface.triangles))
+  , Tree(triangleTree(surface.points, surface.triangles))
 {
 }
 
