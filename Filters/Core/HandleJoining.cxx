@@ -62,10 +62,10 @@ struct Surroundings
 };
 
 /** Finds what lies around corners, fastest in the order of the lattice. Not for several threads at once. */
-class Looking
+class SurroundingsFinder
 {
 public:
-  explicit Looking(const LatticeLabels& labels)
+  explicit SurroundingsFinder(const LatticeLabels& labels)
     : Labels(labels)
     , Corners(labels.shell().corners)
     , Cells(labels.shell().cells)
@@ -131,7 +131,7 @@ public:
     , Loop(loop)
     , States(labels.inside().size())
     , Paths(labels.shell())
-    , Look(labels)
+    , Finder(labels)
     , Run(execution)
   {
     execution.forRanges(this->States.size(), 4096,
@@ -147,11 +147,11 @@ public:
   /** Take corners that the field allows, unless they join parts that meet anyway; what they join beyond that is noted. */
   void grow()
   {
-    Queue queue = this->queueOf([&](std::uint32_t corner, Looking& look)
-      { return this->States[corner] == InTurn && this->partsAround(corner, look).count != 1; });
-    this->come(std::move(queue), [&](std::uint32_t corner)
+    Queue queue = this->queueOf([&](std::uint32_t corner, SurroundingsFinder& finder)
+      { return this->States[corner] == InTurn && this->partsAround(corner, finder).count != 1; });
+    this->visitInTurn(std::move(queue), [&](std::uint32_t corner)
       {
-        const Parts parts = this->partsAround(corner, this->Look);
+        const Parts parts = this->partsAround(corner, this->Finder);
         if (parts.count == 0 || this->anyMeet(corner, parts))
         {
           this->States[corner] = Outside;
@@ -168,11 +168,11 @@ public:
   /** Further outside, take corners that join survivors which touch in them and do not meet otherwise. */
   void join()
   {
-    Queue queue = this->queueOf([&](std::uint32_t corner, Looking& look)
-      { return this->waits(corner) && this->partsAround(corner, look).count > 1; });
-    this->come(std::move(queue), [&](std::uint32_t corner)
+    Queue queue = this->queueOf([&](std::uint32_t corner, SurroundingsFinder& finder)
+      { return this->waits(corner) && this->partsAround(corner, finder).count > 1; });
+    this->visitInTurn(std::move(queue), [&](std::uint32_t corner)
       {
-        const Parts parts = this->partsAround(corner, this->Look);
+        const Parts parts = this->partsAround(corner, this->Finder);
         if (parts.count < 2 || this->anyMeet(corner, parts))
         {
           return false;
@@ -238,15 +238,15 @@ private:
   Queue queueOf(const Test& test)
   {
     const auto corners = indicesWhereTests(this->States.size(), 4096, this->Run,
-      [&] { return [&, look = Looking(this->Labels)](std::size_t corner) mutable { return test(std::uint32_t(corner), look); }; });
+      [&] { return [&, finder = SurroundingsFinder(this->Labels)](std::size_t corner) mutable { return test(std::uint32_t(corner), finder); }; });
     std::vector<std::uint32_t> order(corners.begin(), corners.end());
     std::sort(order.begin(), order.end(), this->earlier());
     return Queue(order.begin(), order.end(), this->earlier());
   }
 
-  /** Come to the corners in turn, and to all around one, later in turn, that is not what it was taken for, as `visit(corner)` tells. */
+  /** Visit the corners in turn, and those around one, later in turn, that is not what it was taken for, as `visit(corner)` tells. */
   template <typename Visit>
-  void come(Queue queue, const Visit& visit)
+  void visitInTurn(Queue queue, const Visit& visit)
   {
     for (std::size_t visited = 0; !queue.empty(); ++visited)
     {
@@ -261,7 +261,7 @@ private:
       {
         continue;
       }
-      for (const std::int32_t other : this->Look.around(corner).corners)
+      for (const std::int32_t other : this->Finder.around(corner).corners)
       {
         if (other >= 0 && this->isOfKind(std::uint32_t(other), before) && this->earlier()(corner, std::uint32_t(other)))
         {
@@ -275,15 +275,15 @@ private:
   bool isOfKind(std::uint32_t corner, State state) const { return state == InTurn ? this->States[corner] == InTurn : this->waits(corner); }
 
   /** When the growth comes to a corner: the parts of what is inside or taken that it touches; further outside than the field allows, if survivors in it belong to them. */
-  Parts partsAround(std::uint32_t corner, Looking& look) const
+  Parts partsAround(std::uint32_t corner, SurroundingsFinder& finder) const
   {
     Parts parts;
-    const std::uint32_t among = this->isAllowed(corner) ? ~std::uint32_t(0) : look.survivorsAround(corner);
+    const std::uint32_t among = this->isAllowed(corner) ? ~std::uint32_t(0) : finder.survivorsAround(corner);
     if (among == 0)
     {
       return parts;
     }
-    const Surroundings around = look.around(corner);
+    const Surroundings around = finder.around(corner);
     std::uint32_t taken = around.beyond;
     for (std::uint32_t left = around.inShell; left != 0; left &= left - 1)
     {
@@ -327,7 +327,7 @@ private:
     this->Joints.push_back(corner);
     for (int n = 0; n < parts.count; ++n)
     {
-      for (std::uint32_t part = parts.corners[std::size_t(n)]; this->States[part] != Inside; part = this->partsAround(part, this->Look).corners[0])
+      for (std::uint32_t part = parts.corners[std::size_t(n)]; this->States[part] != Inside; part = this->partsAround(part, this->Finder).corners[0])
       {
         this->Joints.push_back(part);
       }
@@ -339,7 +339,7 @@ private:
   int Loop;
   std::vector<State> States;
   ShellPaths Paths;
-  Looking Look;
+  SurroundingsFinder Finder;
   Execution& Run;
   std::vector<std::uint32_t> Joints;
 };
