@@ -8,6 +8,7 @@
  */
 #pragma once
 
+#include "Execution.h"
 #include "Mesh.h"
 
 #include <Eigen/Geometry>
@@ -38,8 +39,10 @@ class BoxTree
 {
 public:
   explicit BoxTree(const std::vector<Box>& boxes);
-  /** The same of `count` boxes that are made one after another. */
-  BoxTree(std::size_t count, const std::function<Box(std::size_t)>& boxOf);
+  /** The same, side by side. */
+  BoxTree(const std::vector<Box>& boxes, Execution& execution);
+  /** The same of `count` boxes, which are asked for once each, perhaps at the same time. */
+  BoxTree(std::size_t count, const std::function<Box(std::size_t)>& boxOf, Execution& execution);
 
   /** Number of leaves; together they hold each box once. */
   std::size_t leafCount() const { return this->Leaves.size(); }
@@ -93,20 +96,25 @@ private:
   struct Slot
   {
     Box box;
-    std::int32_t item;
+    std::int32_t item = 0;
   };
   struct Node
   {
     Box box;
-    std::int32_t first; ///< slots [first, last)
-    std::int32_t last;
-    std::int32_t right; ///< the left child is the next node; 0 for a leaf
+    std::int32_t first = 0; ///< slots [first, last)
+    std::int32_t last = 0;
+    std::int32_t right = 0; ///< the left child is the next node; 0 for a leaf
   };
   /** Median splits leave at least half of LeafSize in a leaf: 2^31 boxes are at most 30 levels. */
   static constexpr int StackSize = 64;
   static constexpr std::int32_t LeafSize = 6;
 
-  void build(std::vector<Slot>& slots, std::int32_t first, std::int32_t last);
+  struct Part;
+
+  std::vector<Part> split(Execution& execution);
+  void append(std::vector<Part>& parts, std::size_t p);
+  std::int32_t divide(std::int32_t first, std::int32_t last, Node& node);
+  void build(std::int32_t first, std::int32_t last, std::vector<Node>& nodes, std::vector<std::int32_t>& leaves);
 
   /** Visit the leaves that overlap the box and hold slots from `from` on. */
   template <typename VisitLeaf>
@@ -118,7 +126,7 @@ private:
 };
 
 /** The tree of the boxes of triangles. */
-BoxTree triangleTree(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles);
+BoxTree triangleTree(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles, Execution& execution);
 
 template <typename VisitLeaf>
 void BoxTree::descend(const Box& box, std::int32_t from, VisitLeaf&& visitLeaf) const

@@ -102,7 +102,7 @@ void CoverageNear::findTriangles(const Mesh& mesh, const std::vector<Box>& swept
   {
     forRows(CellBox(this->Part.lattice, box), [](std::uint8_t& row) { row |= IsSwept; });
   }
-  const BoxTree moving(swept);
+  const BoxTree moving(swept, execution);
   const auto concerns = [&](std::size_t t)
   {
     const Box box = triangleBox(mesh.points, mesh.triangles[t]);

@@ -182,9 +182,9 @@ Sums sampleAll(const Mesh& from, const DistanceTarget& target, double spacing, E
 
 } // namespace
 
-DistanceTarget::DistanceTarget(const Mesh& surface)
+DistanceTarget::DistanceTarget(const Mesh& surface, Execution& execution)
   : Surface(checkedSurface(surface))
-  , Tree(triangleTree(surface.points, surface.triangles))
+  , Tree(triangleTree(surface.points, surface.triangles, execution))
 {
 }
 
@@ -219,7 +219,7 @@ MeshDistance meshDistance(const Mesh& from, const Mesh& to, double spacing, Exec
 {
   checkSampling(from, spacing);
   execution.checkpoint(0.0);
-  const DistanceTarget target(to);
+  const DistanceTarget target(to, execution);
   Phase measuring(execution, 0.1, 1.0);
   return meshDistance(from, target, spacing, measuring);
 }

@@ -37,7 +37,7 @@ class DistanceTarget
 {
 public:
   /** `surface` is not copied and has to outlive this. Throws InvalidInput for an invalid or empty mesh. */
-  explicit DistanceTarget(const Mesh& surface);
+  DistanceTarget(const Mesh& surface, Execution& execution);
 
   double squaredDistance(const Eigen::Vector3d& point) const;
 

@@ -81,7 +81,7 @@ PairList pairsAmong(
   const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles, Execution& execution)
 {
   execution.checkpoint(0.0);
-  const BoxTree tree = triangleTree(points, triangles);
+  const BoxTree tree = triangleTree(points, triangles, execution);
   PairList pairs = collect(
     tree.leafCount(),
     [&](std::size_t leaf, PairList& list)
@@ -140,7 +140,7 @@ std::vector<TrianglePair> selfIntersectionsWith(
   {
     inSubset[t] = 1;
   }
-  const BoxTree tree = triangleTree(mesh.points, trianglesOf(mesh, sorted));
+  const BoxTree tree = triangleTree(mesh.points, trianglesOf(mesh, sorted), execution);
   const auto meetOutsider = [&](std::size_t item, PairList& list)
   {
     const Triangle& outsider = mesh.triangles[item];

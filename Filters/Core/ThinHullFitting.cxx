@@ -289,7 +289,7 @@ private:
       const Box box = this->sweptBy(std::size_t(t));
       this->Swept.emplace_back(box.min() - slack, box.max() + slack);
     }
-    const BoxTree tree(this->Swept);
+    const BoxTree tree(this->Swept, this->Run);
     const auto isNear = [&](std::size_t t)
     {
       bool near = false;

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoxTree.h"
 
+#include "EvaluationTestMeshes.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 #include <set>
 
 using namespace silhouette;
+using namespace silhouette::test;
 
 namespace
 {
@@ -43,6 +47,46 @@ TEST(BoxTree, OverlappingEqualsAll)
     }
     tree.overlapping(query, [&](std::int32_t i) { found.insert(i); });
     ASSERT_EQ(found, expected);
+  }
+}
+
+/** Built by parts: what is found, and in which order, is the same as of all pairs, and for any number of threads. */
+TEST(BoxTree, SameForAnyNumberOfThreads)
+{
+  for (const int count : { 7, 384, 385, 6000, 30000 })
+  {
+    const std::vector<Box> boxes = randomBoxes(count, 5);
+    const BoxTree alone(boxes);
+    for (const int threads : { 1, 2, 8 })
+    {
+      ThreadedExecution execution(threads);
+      const BoxTree tree(boxes, execution);
+      ASSERT_EQ(tree.leafCount(), alone.leafCount());
+      for (const Box& query : randomBoxes(20, 6))
+      {
+        std::vector<std::int32_t> expected, found;
+        alone.overlapping(query, [&](std::int32_t i) { expected.push_back(i); });
+        tree.overlapping(query, [&](std::int32_t i) { found.push_back(i); });
+        EXPECT_TRUE(found == expected) << count << " boxes, " << threads << " threads";
+        std::sort(found.begin(), found.end());
+        std::vector<std::int32_t> all;
+        for (std::int32_t i = 0; i < count; ++i)
+        {
+          if (boxes[std::size_t(i)].intersects(query))
+          {
+            all.push_back(i);
+          }
+        }
+        EXPECT_TRUE(found == all) << count << " boxes";
+      }
+      std::size_t pairs = 0, expectedPairs = 0;
+      for (std::size_t leaf = 0; leaf < tree.leafCount() && count <= 6000; ++leaf)
+      {
+        tree.overlappingPairs(leaf, [&](std::int32_t i, std::int32_t j) { pairs += std::size_t(i) * 7 + std::size_t(j); });
+        alone.overlappingPairs(leaf, [&](std::int32_t i, std::int32_t j) { expectedPairs += std::size_t(i) * 7 + std::size_t(j); });
+      }
+      EXPECT_EQ(pairs, expectedPairs);
+    }
   }
 }
 

@@ -51,11 +51,20 @@ Sums sampleTriangle(const Mesh& mesh, const Triangle& triangle, const Yardstick&
   return sums;
 }
 
+/** Made on the calling thread: trials run side by side. */
+DistanceTarget targetOf(const Mesh& mesh)
+{
+  Execution alone;
+  return DistanceTarget(mesh, alone);
+}
+
 } // namespace
 
+Yardstick::Yardstick(Mesh surface) : Surface(std::move(surface)), Fine(targetOf(this->Surface)) {}
+
 Yardstick::Yardstick(Mesh surface, Mesh coarse, double near)
-    : Surface(std::move(surface)), Fine(this->Surface), Coarse(std::move(coarse)),
-      Far(std::make_unique<DistanceTarget>(this->Coarse)), Near(near)
+    : Surface(std::move(surface)), Fine(targetOf(this->Surface)), Coarse(std::move(coarse)),
+      Far(std::make_unique<DistanceTarget>(targetOf(this->Coarse))), Near(near)
 {
 }
 

@@ -20,7 +20,7 @@ namespace silhouette::experiments
 class Yardstick
 {
 public:
-  explicit Yardstick(Mesh surface) : Surface(std::move(surface)), Fine(this->Surface) {}
+  explicit Yardstick(Mesh surface);
   Yardstick(Mesh surface, Mesh coarse, double near);
 
   const Mesh& surface() const { return this->Surface; }
