@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "FieldRefinement.h"
+#include "NearViews.h"
 #include "Vectorised.h"
 #include "ViewAgreement.h"
 #include "ViewAlignment.h"
@@ -240,13 +241,6 @@ private:
     }
   }
 
-  /** A view that says anything but the whole reach in a block of points, and where it sees the block. */
-  struct Near
-  {
-    int view;
-    FieldViews::Region region;
-  };
-
   /** Of the distances in the observed silhouettes, which is the model's? */
   int modelRank() const
   {
@@ -262,7 +256,7 @@ private:
     const float far = float(this->Views.reach());
     const auto makeWork = [&]
     {
-      return [&, kept = std::vector<float>(std::size_t(rank) * BlockPoints)](std::size_t block, const std::vector<Near>& near) mutable
+      return [&, kept = std::vector<float>(std::size_t(rank) * BlockPoints)](std::size_t block, const std::vector<NearView>& near) mutable
       {
         const LatticePoint lowest = fromMorton(this->Least.code(block));
         std::fill(kept.begin(), kept.end(), far);
@@ -288,65 +282,13 @@ private:
         }
       };
     };
-    this->forBlocks(nullptr, [](std::size_t) { return true; }, makeWork, execution);
+    forBlocks(this->Least, this->Views, nullptr, [](std::size_t) { return true; }, makeWork, execution);
   }
 
   bool touchesBorder(const LatticePoint& block) const
   {
     const int last = FieldViews::BlockSize - 1;
     return this->Views.lattice().onBorder(block) || this->Views.lattice().onBorder(block + LatticePoint{ last, last, last });
-  }
-
-  /** Those of some views that have to be asked in a cube of `size` lattice points a side. */
-  void findNear(
-    const LatticePoint& lowest, int size, const std::vector<int>& among, const std::vector<DistanceMap>* maps, std::vector<Near>& near) const
-  {
-    near.clear();
-    for (const int view : among)
-    {
-      const FieldViews::Region region = this->Views.region(view, lowest, size);
-      if (!this->Views.wholeReach(this->Views.observed(view), region) ||
-        (maps && !this->Views.wholeReach((*maps)[view], region)))
-      {
-        near.push_back({ view, region });
-      }
-    }
-  }
-
-  /**
-   * Call `work(block, near)` for each block of the field's for which `concerns(block)` holds, with its first point's index and the views that have to be asked
-   * there; `makeWork()` makes the work of each range of bricks. Views that are far from a brick are far from all of its blocks.
-   */
-  template <typename Concerns, typename MakeWork>
-  void forBlocks(const std::vector<DistanceMap>* maps, const Concerns& concerns, const MakeWork& makeWork, Execution& execution) const
-  {
-    execution.forRanges(this->Least.bricks().size(), 1,
-      [&](std::size_t firstBrick, std::size_t lastBrick)
-      {
-        auto work = makeWork();
-        std::vector<Near> near;
-        std::vector<int> nearBrick;
-        for (std::size_t brick = firstBrick; brick < lastBrick; ++brick)
-        {
-          bool isBrickKnown = false;
-          for (std::size_t block = brick * BrickField::BrickPoints; block < (brick + 1) * BrickField::BrickPoints; block += BlockPoints)
-          {
-            if (!concerns(block))
-            {
-              continue;
-            }
-            if (!isBrickKnown)
-            {
-              this->findNear(fromMorton(this->Least.code(brick * BrickField::BrickPoints)), BrickField::BrickSize, this->All, maps, near);
-              nearBrick.clear();
-              std::transform(near.begin(), near.end(), std::back_inserter(nearBrick), [](const Near& one) { return one.view; });
-              isBrickKnown = true;
-            }
-            this->findNear(fromMorton(this->Least.code(block)), FieldViews::BlockSize, nearBrick, maps, near);
-            work(block, near);
-          }
-        }
-      });
   }
 
   /** From the least distance to the model, and from the model to where the views agree. */
@@ -396,7 +338,7 @@ private:
     const auto makeWork = [&]
     {
       return [&, own = std::vector<float>(maps.size() * BlockPoints), seen = std::vector<float>(maps.size() * BlockPoints)](
-               std::size_t block, const std::vector<Near>& near) mutable
+               std::size_t block, const std::vector<NearView>& near) mutable
       {
         const LatticePoint lowest = fromMorton(this->Least.code(block));
         for (std::size_t i = 0; i < near.size(); ++i)
@@ -418,7 +360,7 @@ private:
         }
       };
     };
-    this->forBlocks(&maps, concerns, makeWork, execution);
+    forBlocks(this->Least, this->Views, &maps, concerns, makeWork, execution);
     return values;
   }
 
@@ -441,7 +383,7 @@ private:
    * What the field is to be at a block's points. `own` and `seen` hold the distances in the model's and in the observed silhouettes for the
    * views that are near; others say the whole reach in both.
    */
-  void agree(const std::vector<Near>& near, const float* own, const float* seen, float* agreed) const
+  void agree(const std::vector<NearView>& near, const float* own, const float* seen, float* agreed) const
   {
     const float far = float(this->Views.reach()), reach = float(this->Options.contourReach * this->Length.proportion);
     ViewAgreement sums(far);

@@ -4,8 +4,8 @@
 #include "BoxTree.h"
 #include "CoverageNear.h"
 #include "IndicesWhere.h"
+#include "IntersectionsNear.h"
 #include "MeshComponents.h"
-#include "SelfIntersections.h"
 
 #include <algorithm>
 #include <array>
@@ -296,45 +296,17 @@ private:
       tree.overlapping(this->sweptBy(t), [&](std::int32_t) { near = true; });
       return near;
     };
-    this->Near = MeshPart(this->TheMesh, indicesWhere(count, 1024, this->Run, isNear));
+    this->Near = IntersectionsNear(this->TheMesh, indicesWhere(count, 1024, this->Run, isNear));
     this->Run.checkpoint(0.4);
-  }
-
-  /** The pairs of triangles that meet, by their numbers among Near; those of which neither has changed meet as they did. */
-  const std::vector<TrianglePair>& intersections()
-  {
-    Phase phase(this->Run, 0.4, 0.4);
-    const Mesh part = this->Near.of(this->TheMesh);
-    if (this->MetAt == 0)
-    {
-      this->Met = selfIntersections(part, phase);
-    }
-    else
-    {
-      std::vector<std::int32_t> changed;
-      std::vector<std::uint8_t> isChanged(part.triangles.size(), 0);
-      for (std::size_t n = 0; n < part.triangles.size(); ++n)
-      {
-        if (this->hasChanged(std::size_t(this->Near.triangle(n)), this->MetAt))
-        {
-          changed.push_back(std::int32_t(n));
-          isChanged[n] = 1;
-        }
-      }
-      const auto isOver = [&](const TrianglePair& pair) { return isChanged[std::size_t(pair[0])] || isChanged[std::size_t(pair[1])]; };
-      this->Met.erase(std::remove_if(this->Met.begin(), this->Met.end(), isOver), this->Met.end());
-      const auto pairs = selfIntersectionsWith(part, changed, phase);
-      this->Met.insert(this->Met.end(), pairs.begin(), pairs.end());
-    }
-    this->MetAt = this->Now++;
-    return this->Met;
   }
 
   void withdrawIntersections()
   {
     for (;;)
     {
-      const auto& pairs = this->intersections();
+      Phase phase(this->Run, 0.4, 0.4);
+      const auto& pairs = this->Near.pairs(this->TheMesh, [this](std::size_t t) { return this->hasChanged(t, this->MetAt); }, phase);
+      this->MetAt = this->Now++;
       if (pairs.empty())
       {
         return;
@@ -344,7 +316,7 @@ private:
       {
         for (const std::int32_t t : pair)
         {
-          for (const std::int32_t p : this->TheMesh.triangles[std::size_t(this->Near.triangle(std::size_t(t)))])
+          for (const std::int32_t p : this->TheMesh.triangles[std::size_t(t)])
           {
             points.push_back(std::size_t(p));
           }
@@ -524,9 +496,8 @@ private:
   std::vector<int> Withdrawn;
   std::uint64_t Now = 1;                ///< grows with each look for intersections and for what is lost
   std::vector<std::uint64_t> ChangedAt; ///< when each point was withdrawn last
-  MeshPart Near;                        ///< the triangles that may meet a moving one
-  std::vector<TrianglePair> Met;        ///< of these, when they were looked at last
-  std::uint64_t MetAt = 0;
+  IntersectionsNear Near;               ///< of the triangles that may meet a moving one
+  std::uint64_t MetAt = 0;              ///< when these were looked for last
   std::vector<std::int32_t> Moving; ///< triangles
   std::vector<Box> Swept;           ///< by each of them
   std::optional<CoverageNear> Survivors;
