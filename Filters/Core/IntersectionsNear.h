@@ -23,9 +23,9 @@ public:
   IntersectionsNear(const Mesh& mesh, std::vector<std::int32_t> triangles);
 
   /**
-   * The pairs of these triangles that meet, by their numbers in the mesh, which has the triangles that it had before, in any order. `hasChanged(triangle)`: may a triangle lie elsewhere than
-   * at the last call? The first one does not ask. Throws Cancelled. Cost: the first time selfIntersections() of these triangles, then that of those that
-   * have changed and a pass over the rest.
+   * The pairs of these triangles that meet, by their numbers in the mesh, in any order; the mesh has the triangles that it had before. `hasChanged(triangle)`:
+   * may a triangle lie elsewhere than at the last call? The first call does not ask. Throws Cancelled. Cost: the first time selfIntersections() of these
+   * triangles, then that of those that have changed and a pass over the rest.
    */
   const std::vector<TrianglePair>& pairs(const Mesh& mesh, const std::function<bool(std::size_t)>& hasChanged, Execution& execution);
 
