@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace silhouette
 {
@@ -34,7 +35,8 @@ struct BlockOffsets
 };
 
 /**
- * How a view sees a block, from where its lowest point falls on: single precision is enough for the few pixels from there to the others, to 1e-5 of them.
+ * How a view sees a block, from where its lowest point falls on: single precision is enough for the pixels from there to the others. Where a point is many times
+ * nearer to the camera, its place is that much less right, but a pixel is that much less of an octant.
  */
 struct BlockProjection
 {
@@ -87,15 +89,26 @@ struct BlockSamples
   float upper[2 * Points], lower[2 * Points];
 };
 
-/** `x` and `y`: samples from the first one that is asked for to where the lowest point falls. */
-SILHOUETTE_VECTORISED void findSamples(
-  const BlockPlaces& places, float x, float y, float samplesPerPixel, std::int32_t columns, BlockSamples& samples)
+/** Where the samples begin that a block asks for. */
+struct SampleFrame
+{
+  float x, y;                        ///< samples from the first one to where the block's lowest point falls
+  float samplesPerPixel;
+  std::int32_t lastColumn, lastRow; ///< of the upper left ones of four, from the first one on
+  std::int32_t columns;             ///< of a row of the map's
+};
+
+/** Places that rounding carries beyond the samples take the last ones. */
+SILHOUETTE_VECTORISED void findSamples(const BlockPlaces& places, const SampleFrame& frame, BlockSamples& samples)
 {
   for (int n = 0; n < Points; ++n)
   {
-    const float across = x + places.u[n] * samplesPerPixel, down = y + places.v[n] * samplesPerPixel;
-    const auto column = std::int32_t(across), row = std::int32_t(down);
-    samples.sample[n] = row * columns + column;
+    const float across = frame.x + places.u[n] * frame.samplesPerPixel, down = frame.y + places.v[n] * frame.samplesPerPixel;
+    const auto anyColumn = std::int32_t(across), anyRow = std::int32_t(down);
+    const std::int32_t notBefore = anyColumn > 0 ? anyColumn : 0, notAbove = anyRow > 0 ? anyRow : 0;
+    const std::int32_t column = notBefore < frame.lastColumn ? notBefore : frame.lastColumn;
+    const std::int32_t row = notAbove < frame.lastRow ? notAbove : frame.lastRow;
+    samples.sample[n] = row * frame.columns + column;
     samples.s[n] = across - float(column);
     samples.t[n] = down - float(row);
   }
@@ -117,7 +130,7 @@ SILHOUETTE_VECTORISED void interpolateBlock(const BlockSamples& samples, const B
 /** Does a map have all samples around the places of a region? */
 bool hasSamplesAround(const DistanceMap& map, const FieldViews::Region& region)
 {
-  return region.octantsPerPixel > 0.0 && !map.value.empty() && region.firstU >= map.left && region.firstV >= map.top &&
+  return !map.value.empty() && region.firstU >= map.left && region.firstV >= map.top &&
     region.lastU < map.left + map.lastColumn && region.lastV < map.top + map.lastRow &&
     map.value.size() <= std::size_t(std::numeric_limits<std::int32_t>::max());
 }
@@ -128,7 +141,7 @@ void insideOfSamples(
   const int column = int((region.firstU - map.left) * map.samplesPerPixel), row = int((region.firstV - map.top) * map.samplesPerPixel);
   const double x = (block.u - map.left) * map.samplesPerPixel - column, y = (block.v - map.top) * map.samplesPerPixel - row;
   BlockSamples samples;
-  findSamples(places, float(x), float(y), float(map.samplesPerPixel), map.columns, samples);
+  findSamples(places, { float(x), float(y), float(map.samplesPerPixel), map.columns - 2 - column, map.rows - 2 - row, map.columns }, samples);
   const float* const first = &map.value[std::size_t(row) * map.columns + column];
   for (int n = 0; n < Points; ++n)
   {
@@ -264,13 +277,17 @@ void FieldViews::insideBlock(
 {
   static const BlockOffsets offsets;
   BlockPlaces places;
-  const BlockProjection block(this->OnLattice[view], lowest, this->DepthScale[view]);
-  placeBlock(block, offsets, places);
+  std::optional<BlockProjection> block;
+  if (region.octantsPerPixel > 0.0)
+  {
+    block.emplace(this->OnLattice[view], lowest, this->DepthScale[view]);
+    placeBlock(*block, offsets, places);
+  }
   for (const auto& [map, inside] : questions)
   {
-    if (hasSamplesAround(map, region))
+    if (block && hasSamplesAround(map, region))
     {
-      insideOfSamples(map, region, block, places, float(this->Reach), inside);
+      insideOfSamples(map, region, *block, places, float(this->Reach), inside);
       continue;
     }
     for (int n = 0; n < Points; ++n)

@@ -214,7 +214,7 @@ double shareOf(const Mesh& hull, const Mesh& surface)
 /** The share of a hull that lies within the points' and takes little time; 1 where that tells nothing. */
 double greatestConvexity(const Mesh& surface)
 {
-  if (surface.points.size() <= FewPoints)
+  if (surface.points.size() < 2 * FewPoints)
   {
     return 1.0;
   }

@@ -242,6 +242,59 @@ TEST(FieldViews, OfABlockItIsThatOfEachPoint)
   }
 }
 
+/** A camera among the points: some of a block are many times nearer to it than others, and much further apart in its image. */
+TEST(FieldViews, OfABlockBesideTheCamera)
+{
+  Execution execution;
+  BinaryImage stripes{ Size, Size, std::vector<std::uint8_t>(std::size_t(Size) * Size, 0) };
+  for (int pixel = 0; pixel < Size * Size; ++pixel)
+  {
+    stripes.pixels[std::size_t(pixel)] = (pixel % Size + pixel / Size) / 6 % 2 == 0;
+  }
+  const Lattice lattice{ unitCube(2.5), 3 };
+  std::vector<View> captured;
+  Eigen::Matrix3d axes; // it looks back along the cube's diagonal, from just beyond the last corner of one of these blocks
+  axes.row(0) = Vector3(1, -1, 0).normalized();
+  axes.row(2) = -Vector3(1, 1, 1).normalized();
+  axes.row(1) = axes.row(2).cross(axes.row(0));
+  Eigen::Matrix3d inner;
+  inner << 15, 0, 0.5 * Size, 0, 15, 0.5 * Size, 0, 0, 1; // px, a wide angle
+  for (const double away : { 1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5 }) // octants
+  {
+    for (const int corner : { 3, 7 })
+    {
+      const Vector3 centre = lattice.root.origin + (Vector3::Constant(corner) - away * axes.row(2).transpose()) * lattice.leafEdge();
+      Projection projection;
+      projection << inner * axes, -inner * axes * centre;
+      captured.push_back({ "", projection, stripes });
+    }
+  }
+  const PreparedViews views = prepareViews(captured);
+  int between = 0;
+  for (const int depth : { 3, 5 })
+  {
+    FieldViews fieldViews(views, { lattice.root, depth }, 4.0);
+    fieldViews.observe(allOf(fieldViews), execution);
+    for (std::uint64_t block = 0; block < std::uint64_t(1) << 3 * (depth - 2); ++block)
+    {
+      const LatticePoint lowest = fromMorton(block * FieldViews::BlockPoints);
+      for (int view = 0; view < views.size(); ++view)
+      {
+        float inside[FieldViews::BlockPoints];
+        fieldViews.insideBlock(
+          view, lowest, fieldViews.region(view, lowest, FieldViews::BlockSize), { { fieldViews.observed(view), inside } });
+        for (std::size_t n = 0; n < FieldViews::BlockPoints; ++n)
+        {
+          const float expected = fieldViews.inside(fieldViews.observed(view), fieldViews.place(view, lowest + fromMorton(n)));
+          ASSERT_NEAR(inside[n], expected, 1e-4) << depth << " " << block << " " << view << " " << n;
+          between += std::abs(inside[n]) < 4.0f;
+        }
+      }
+    }
+  }
+  EXPECT_GT(between, 2000);
+}
+
 TEST(FieldViews, SameForAnyNumberOfThreads)
 {
   const PreparedViews views = sphereViews(7);
