@@ -48,30 +48,47 @@ double nearestInRow(const PreparedView& view, double u, int row, double most)
 }
 
 constexpr double WindowReach = 7.0; ///< px: pixels nearer than that to a place lie in the four windows around its own
+constexpr double CentreReach = 3.0; ///< px: the same of the one window around it
 
-/** nearestObject() by the four windows of 8 x 8 pixels around (column, row), all of them in the image; `most` is WindowReach at most. */
+/** The window of 8 x 8 pixels from (column, row) on, all of them in the image: `square` becomes that of the distance to its nearest object, if that is less. */
+void searchWindow(const PreparedView& view, int column, int row, double u, double v, double& square)
+{
+  const std::uint64_t window = view.window(column, row);
+  const unsigned before = (1u << std::clamp(int(std::floor(u + 0.5)) - column, 0, 8)) - 1; // columns less than the place's own
+  for (std::uint64_t rows = window; rows != 0;)
+  {
+    const int shift = lowestBit(rows) & 56; // the next row that holds any
+    rows &= ~(std::uint64_t(0xff) << shift);
+    const double across = away(row + shift / 8, v);
+    const unsigned pixels = unsigned(window >> shift & 0xff);
+    if (across * across >= square)
+    {
+      continue;
+    }
+    if ((pixels & before) != 0)
+    {
+      const double along = away(column + highestBit(pixels & before), u);
+      square = std::min(square, along * along + across * across);
+    }
+    if ((pixels & ~before) != 0)
+    {
+      const double along = away(column + lowestBit(pixels & ~before), u);
+      square = std::min(square, along * along + across * across);
+    }
+  }
+}
+
+/** nearestObject() by the windows around (column, row), all of them in the image; `most` is WindowReach at most. */
 double nearestInWindows(const PreparedView& view, int column, int row, double u, double v, double most)
 {
   double square = most * most;
-  for (const int below : { 0, -8 })
+  searchWindow(view, column - 4, row - 4, u, v, square); // where most are found
+  if (square > CentreReach * CentreReach)
   {
-    const std::uint64_t left = view.window(column - 8, row + below), right = view.window(column, row + below);
-    for (std::uint64_t rows = left | right; rows != 0;)
+    for (const int below : { 0, -8 })
     {
-      const int shift = lowestBit(rows) & 56; // the next row that holds any
-      rows &= ~(std::uint64_t(0xff) << shift);
-      const double across = away(row + below + shift / 8, v);
-      const std::uint64_t before = left >> shift & 0xff, after = right >> shift & 0xff;
-      if (before != 0)
-      {
-        const double along = away(column - 8 + highestBit(before), u);
-        square = std::min(square, along * along + across * across);
-      }
-      if (after != 0)
-      {
-        const double along = away(column + lowestBit(after), u);
-        square = std::min(square, along * along + across * across);
-      }
+      searchWindow(view, column - 8, row + below, u, v, square);
+      searchWindow(view, column, row + below, u, v, square);
     }
   }
   return std::sqrt(square);

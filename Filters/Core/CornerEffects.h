@@ -11,7 +11,9 @@
 #include "SimplePoint.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace silhouette
@@ -25,6 +27,37 @@ enum class CornerEffect : int
   Founds,   ///< it starts a component of its own
   Otherwise ///< tunnels or cavities may come or go
 };
+
+/** The effect as far as it is a matter of the labels around a corner; nothing where it joins components or else makes tunnels, by what these are. */
+std::optional<CornerEffect> localEffect(const TopologicalNumbers& numbers);
+
+/** Do the parts of the solid around a point, as `numbers` has them, belong to as many of its components? `corners`: the codes of the shell's. */
+bool joinsComponents(const LatticePoint& p, const TopologicalNumbers& numbers, CodeCursor& corners, SolidComponents& solid);
+
+/**
+ * Of corners with equal effects, in ascending order of their numbers or not, the one with most support, which is asked for where there are several; of these the one that
+ * covers most octants, which is asked for where supports are equal; of these the one with the least number.
+ */
+template <typename Support, typename Covers>
+std::uint32_t bestOfEquals(const std::uint32_t* equals, std::size_t count, const Support& support, const Covers& covers)
+{
+  std::uint32_t best = equals[0];
+  float most = count > 1 ? support(best) : 0.0f;
+  for (std::size_t n = 1; n < count; ++n)
+  {
+    const std::uint32_t corner = equals[n];
+    const float own = support(corner);
+    bool isBetter = own > most;
+    if (own == most)
+    {
+      const int cells = covers(corner), others = covers(best);
+      isBetter = cells > others || (cells == others && corner < best);
+    }
+    best = isBetter ? corner : best;
+    most = isBetter ? own : most;
+  }
+  return best;
+}
 
 /** Of corners of the labels' shell that are outside and not on the root cube's border. For one thread at a time. */
 class CornerEffects
@@ -41,18 +74,8 @@ public:
   /** A corner is labelled inside now. Returns the shell's corners around it, -1 where there is none and for itself. */
   std::array<std::ptrdiff_t, 27> setInside(std::uint32_t corner);
 
-  /**
-   * What will be asked first of `cells` without an inside corner, side by side: the effects of their corners on the labels as they are, and the support of
-   * those that are equal. Decides nothing.
-   */
-  void lookAhead(const std::vector<std::uint32_t>& cells, Execution& execution);
-
 private:
   LatticePoint point(std::uint32_t corner) const { return fromMorton(this->Labels.shell().corners[corner]); }
-  float depthOf(std::uint32_t corner, OctantCursor& octants) const { return float((*this->Depth)(this->point(corner), octants)); }
-  std::vector<std::uint32_t> cornersToAsk(const std::vector<std::uint32_t>& cells);
-  std::vector<std::uint32_t> equalCorners(const std::vector<std::uint32_t>& cells) const;
-  bool distinctComponents(const LatticePoint& p, const TopologicalNumbers& numbers, SolidComponents& solid);
 
   const LatticeLabels& Labels;
   const CornerDepth* Depth;

@@ -1,38 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CoverageNear.h"
 
+#include "CellBoxes.h"
 #include "IndicesWhere.h"
 #include "SurvivorCoverage.h"
 
 #include <algorithm>
-#include <array>
 
 namespace silhouette
 {
-namespace
-{
-
-/** The leaf cells that a box meets, and one around them for rounding. */
-struct CellBox
-{
-  std::array<std::int32_t, 3> first{}, last{};
-
-  CellBox(const Lattice& lattice, const Box& box)
-  {
-    const double greatest = lattice.cells() - 1, cells = 1.0 / lattice.leafEdge();
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      // Cutting off what is not negative: floor would be a call.
-      const auto cellOf = [&](double x, double beside)
-      { return std::int32_t(std::clamp((x - lattice.root.origin[axis]) * cells + beside, 0.0, greatest)); };
-      this->first[axis] = cellOf(box.min()[axis], -1.0);
-      this->last[axis] = cellOf(box.max()[axis], 1.0);
-    }
-  }
-};
-
-} // namespace
-
 CoverageNear::CoverageNear(const Octree& octree, const Mesh& mesh, const std::vector<Box>& swept, Execution& execution)
 {
   this->Part.lattice = octree.lattice;
@@ -43,26 +19,9 @@ CoverageNear::CoverageNear(const Octree& octree, const Mesh& mesh, const std::ve
 
 void CoverageNear::findSurvivors(const Octree& octree, const std::vector<Box>& swept)
 {
-  std::vector<std::uint64_t> cells;
-  for (const Box& box : swept)
-  {
-    const CellBox range(octree.lattice, box);
-    for (std::int32_t k = range.first[2]; k <= range.last[2]; ++k)
-    {
-      for (std::int32_t j = range.first[1]; j <= range.last[1]; ++j)
-      {
-        for (std::int32_t i = range.first[0]; i <= range.last[0]; ++i)
-        {
-          cells.push_back(mortonCode({ i, j, k }));
-        }
-      }
-    }
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   const Generation& last = octree.last();
   Generation& part = this->Part.generations.back();
-  for (const std::uint64_t cell : cells)
+  for (const std::uint64_t cell : cellsMet(octree.lattice, swept))
   {
     const auto at = std::lower_bound(last.code.begin(), last.code.end(), cell);
     const std::size_t index = std::size_t(at - last.code.begin());

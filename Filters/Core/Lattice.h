@@ -145,8 +145,8 @@ inline bool isOfLattice(const LatticePoint& p, std::int32_t cells)
   return std::min({ p.i, p.j, p.k }) >= 0 && std::max({ p.i, p.j, p.k }) <= cells;
 }
 
-/** Sort codes, and leave each of them once. */
-inline void sortUnique(std::vector<std::uint64_t>& codes)
+/** Sort codes or numbers, and leave each of them once. */
+template <typename Code> void sortUnique(std::vector<Code>& codes)
 {
   std::sort(codes.begin(), codes.end());
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());

@@ -4,6 +4,7 @@
 #include "CellSafety.h"
 #include "CrossingPlacer.h"
 #include "IndicesWhere.h"
+#include "LabelCache.h"
 #include "LatticeRegions.h"
 #include "LatticeSurface.h"
 #include "MeshComponents.h"
@@ -135,7 +136,11 @@ struct ThinParts
   {
     const CornerShell& shell = labels.shell();
     const auto& covered = covering.coveredCells;
-    for (const std::int32_t n : indicesWhere(covered.size(), 256, execution, [&](std::size_t one) { return isThin(labels, added, covered[one]); }))
+    const auto makeTest = [&]
+    {
+      return [&, cache = LabelCache(labels)](std::size_t one) mutable { return isThin(labels, cache, added, covered[one]); };
+    };
+    for (const std::int32_t n : indicesWhereTests(covered.size(), 1024, execution, makeTest))
     {
       this->cells.push_back(covered[std::size_t(n)]);
       for (const std::uint32_t corner : shell.cellCorners[this->cells.back()])
@@ -150,14 +155,14 @@ struct ThinParts
   }
 
 private:
-  static bool isThin(const LatticeLabels& labels, const std::vector<std::uint64_t>& added, std::uint32_t cell)
+  static bool isThin(const LatticeLabels& labels, LabelCache& cache, const std::vector<std::uint64_t>& added, std::uint32_t cell)
   {
     const LatticePoint p = fromMorton(labels.shell().cells[cell]);
     bool thin = true;
     for (int n = 0; n < 64 && thin; ++n)
     {
       const LatticePoint q{ p.i + n % 4 - 1, p.j + n / 4 % 4 - 1, p.k + n / 16 - 1 };
-      thin = labels.octree().lattice.onBorder(q) || !labels.insideAt(q) || std::binary_search(added.begin(), added.end(), mortonCode(q));
+      thin = labels.octree().lattice.onBorder(q) || !cache.insideAt(q) || std::binary_search(added.begin(), added.end(), mortonCode(q));
     }
     return thin;
   }

@@ -4,8 +4,8 @@
 #include "CornerEffects.h"
 #include "IndicesWhere.h"
 #include "LatticeRegions.h"
+#include "LostCovering.h"
 #include "ShellPaths.h"
-#include "SomeCells.h"
 
 #include <algorithm>
 #include <deque>
@@ -35,23 +35,21 @@ struct Candidate
 class Covering
 {
 public:
-  Covering(LatticeLabels& labels, int loop, const CornerDepth* depth, Execution& execution)
+  /** `result`: what has been done to the labels so far. */
+  Covering(LatticeLabels& labels, int loop, const CornerDepth* depth, CoveringResult& result, Execution& execution)
     : Labels(labels)
     , Effects(labels, depth)
     , Loop(loop)
     , Solid(labels, execution)
+    , Result(result)
   {
   }
 
-  CoveringResult run(const std::vector<Bridge>& bridges, Execution& execution)
+  void run(const std::vector<Bridge>& bridges, Execution& execution)
   {
-    this->findLost(execution);
-    this->Effects.lookAhead(this->Lost, execution);
-    this->coverAll();
     this->joinWithinCells(execution);
     this->joinAcrossCorners();
     this->build(bridges);
-    return this->Result;
   }
 
 private:
@@ -63,14 +61,6 @@ private:
   {
     const auto& corners = this->shell().cellCorners[cell];
     return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return this->inside(c); });
-  }
-
-  void findLost(Execution& execution)
-  {
-    const auto lost = indicesWhere(this->shell().cells.size(), 4096, execution,
-      [&](std::size_t cell) { return this->Labels.isSurvivor(cell) && !this->covered(std::uint32_t(cell)); });
-    this->Lost.assign(lost.begin(), lost.end());
-    this->Result.coveredCells = this->Lost;
   }
 
   CornerEffect effectOf(std::uint32_t corner) { return this->Effects.of(corner, this->Solid); }
@@ -100,47 +90,25 @@ private:
     return candidate;
   }
 
-  /**
-   * The best of a cell's corners that is not inside yet; corner None where there is none or its effect is beyond `most`. Support, which takes
-   * longest, is asked for only among equals, and what they cover only where that is equal too.
-   */
-  Candidate best(std::uint32_t cell, CornerEffect most = CornerEffect::Otherwise)
+  /** The best of a cell's corners that are not inside yet; one is not on the border. Support, which takes longest, is asked for only among equals. */
+  std::uint32_t best(std::uint32_t cell)
   {
     std::array<std::uint32_t, 8> equals;
     std::size_t count = 0;
-    CornerEffect least = most;
+    CornerEffect least = CornerEffect::Otherwise;
     for (const std::uint32_t corner : this->shell().cellCorners[cell])
     {
-      if (this->inside(corner) || this->onBorder(corner))
-      {
-        continue;
-      }
-      const CornerEffect effect = this->effectOf(corner);
-      if (effect <= least)
+      const bool mayBeLabelled = !this->inside(corner) && !this->onBorder(corner);
+      const CornerEffect effect = mayBeLabelled ? this->effectOf(corner) : CornerEffect::Otherwise;
+      if (mayBeLabelled && effect <= least)
       {
         count = effect < least ? 0 : count;
         least = effect;
         equals[count++] = corner;
       }
     }
-    Candidate best;
-    best.effect = least;
-    best.corner = count > 0 ? equals[0] : best.corner;
-    best.support = count > 1 ? this->Effects.support(best.corner) : best.support;
-    for (std::size_t n = 1; n < count; ++n)
-    {
-      const std::uint32_t corner = equals[n];
-      const float support = this->Effects.support(corner);
-      bool isBetter = support > best.support;
-      if (support == best.support)
-      {
-        const int own = this->covers(corner), others = this->covers(best.corner);
-        isBetter = own > others || (own == others && corner < best.corner);
-      }
-      best.corner = isBetter ? corner : best.corner;
-      best.support = isBetter ? support : best.support;
-    }
-    return best;
+    return bestOfEquals(
+      equals.data(), count, [&](std::uint32_t corner) { return this->Effects.support(corner); }, [&](std::uint32_t corner) { return this->covers(corner); });
   }
 
   /** Label a corner inside, of which the effect is known. */
@@ -159,50 +127,6 @@ private:
     std::array<std::uint32_t, 8> cells;
     const int count = this->Labels.cellsAround(fromMorton(this->shell().corners[corner]), cells);
     this->Unsettled.insert(this->Unsettled.end(), cells.begin(), cells.begin() + count);
-  }
-
-  /** Grow from the solid as long as that changes no topology, then found a new component, and so on. */
-  void coverAll()
-  {
-    const SomeCells lost(this->shell(), this->Lost);
-    std::deque<std::uint32_t> list(this->Lost.begin(), this->Lost.end());
-    std::size_t next = 0;
-    for (;;)
-    {
-      const bool growing = !list.empty();
-      std::uint32_t cell = 0;
-      if (growing)
-      {
-        cell = list.front();
-        list.pop_front();
-      }
-      else if (next < this->Lost.size())
-      {
-        cell = this->Lost[next++];
-      }
-      else
-      {
-        return;
-      }
-      if (this->covered(cell))
-      {
-        continue;
-      }
-      const Candidate candidate = this->best(cell, growing ? CornerEffect::Joins : CornerEffect::Otherwise);
-      if (!growing || candidate.corner != None)
-      {
-        this->add(candidate.corner, candidate.effect);
-        // The uncovered cells around the corner's own cells have another choice now.
-        lost.forCellsAround(fromMorton(this->shell().corners[candidate.corner]),
-          [&](std::uint32_t other)
-          {
-            if (!this->covered(other))
-            {
-              list.push_back(other);
-            }
-          });
-      }
-    }
   }
 
   /** Are two corners of a cell inside, opposite ends of its diagonal? In no other cell are inside corners apart. */
@@ -229,7 +153,7 @@ private:
       std::copy_if(corners.begin(), corners.end(), ends.begin(), [&](std::uint32_t corner) { return this->inside(corner); });
       if (this->component(ends[0]) != this->component(ends[1]))
       {
-        this->addUnsettled(this->best(cell).corner);
+        this->addUnsettled(this->best(cell));
       }
     }
   }
@@ -400,17 +324,32 @@ private:
   CornerEffects Effects;
   int Loop;
   SolidComponents Solid;
-  std::vector<std::uint32_t> Lost;
   std::deque<std::uint32_t> Unsettled;
-  CoveringResult Result;
+  CoveringResult& Result;
 };
+
+/** The shell's survivors without an inside corner. */
+std::vector<std::uint32_t> lostCells(const LatticeLabels& labels, Execution& execution)
+{
+  const auto isCovered = [&](const std::array<std::uint32_t, 8>& corners)
+  { return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return labels.inside()[c] != 0; }); };
+  const auto lost = indicesWhere(labels.shell().cells.size(), 4096, execution,
+    [&](std::size_t cell) { return labels.isSurvivor(cell) && !isCovered(labels.shell().cellCorners[cell]); });
+  return { lost.begin(), lost.end() };
+}
 
 } // namespace
 
 CoveringResult coverSurvivors(
   LatticeLabels& labels, const std::vector<Bridge>& bridges, int loop, const CornerDepth* depth, Execution& execution)
 {
-  return Covering(labels, loop, depth, execution).run(bridges, execution);
+  CoveringResult result;
+  result.coveredCells = lostCells(labels, execution);
+  LostCovering covering = coverLost(labels, result.coveredCells, depth, execution);
+  result.coveringCorners = std::move(covering.corners);
+  result.mayEnclose = covering.mayEnclose;
+  Covering(labels, loop, depth, result, execution).run(bridges, execution);
+  return result;
 }
 
 } // namespace silhouette

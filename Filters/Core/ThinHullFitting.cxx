@@ -2,14 +2,18 @@
 #include "ThinHullFitting.h"
 
 #include "BoxTree.h"
+#include "CellBoxes.h"
+#include "CellTriangles.h"
 #include "CoverageNear.h"
 #include "IndicesWhere.h"
 #include "IntersectionsNear.h"
 #include "MeshComponents.h"
+#include "UnionFind.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -130,6 +134,7 @@ public:
     : Thin(thin)
     , TheMesh(mesh)
     , Run(execution)
+    , Cells(thin.shell, thin.surface)
     , Number(mesh.points.size(), -1)
   {
     this->aim(solid, reach);
@@ -180,9 +185,14 @@ private:
   {
     const auto& edges = this->Thin.surface.edges;
     const CornerShell& shell = this->Thin.shell;
-    const std::vector<std::int32_t> candidates = indicesWhere(reach > 0.0 ? edges.size() : 0, 4096, this->Run,
-      [&](std::size_t e)
-      { return std::binary_search(this->Thin.added.begin(), this->Thin.added.end(), shell.corners[edges[e].inside]); });
+    std::vector<std::uint8_t> isAdded(shell.corners.size(), 0);
+    CodeCursor corners(shell.corners);
+    for (const std::uint64_t code : this->Thin.added)
+    {
+      isAdded[std::size_t(corners.find(code))] = 1;
+    }
+    const std::vector<std::int32_t> candidates =
+      indicesWhere(reach > 0.0 ? edges.size() : 0, 4096, this->Run, [&](std::size_t e) { return isAdded[edges[e].inside] != 0; });
     std::vector<Vector3> moves(candidates.size(), Vector3::Zero());
     this->Run.forRanges(candidates.size(), 16,
       [&](std::size_t first, std::size_t last)
@@ -278,26 +288,79 @@ private:
     return box;
   }
 
+  /** The triangles with a moving point: they lie in the cells around that point's edge. */
+  std::vector<std::int32_t> movingTriangles() const
+  {
+    const CornerShell& shell = this->Thin.shell;
+    std::vector<std::uint64_t> cells;
+    for (const std::size_t point : this->Points)
+    {
+      const CrossedEdge& edge = this->Thin.surface.edges[point];
+      for (int n = 0; n < 8; ++n)
+      {
+        const LatticePoint o = cornerOffset(n), inside = fromMorton(shell.corners[edge.inside]), outside = fromMorton(shell.corners[edge.outside]);
+        cells.push_back(mortonCode({ std::min(inside.i, outside.i) - o.i, std::min(inside.j, outside.j) - o.j, std::min(inside.k, outside.k) - o.k }));
+      }
+    }
+    sortUnique(cells);
+    std::vector<std::int32_t> triangles = this->Cells.ofCells(cells);
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), [&](std::int32_t t) { return !this->moves(std::size_t(t)); }), triangles.end());
+    return triangles;
+  }
+
+  /** Some triangles and those that move, all ascending. */
+  std::vector<std::int32_t> withMoving(const std::vector<std::int32_t>& triangles) const
+  {
+    std::vector<std::int32_t> all;
+    std::set_union(triangles.begin(), triangles.end(), this->Moving.begin(), this->Moving.end(), std::back_inserter(all));
+    return all;
+  }
+
   /** The triangles that may meet a moving one. */
   void findNeighbourhood()
   {
-    const std::size_t count = this->TheMesh.triangles.size();
     const Vector3 slack = Vector3::Constant(1e-3 * this->lattice().leafEdge()); // for rounding
-    this->Moving = indicesWhere(count, 4096, this->Run, [&](std::size_t n) { return this->moves(n); });
+    this->Moving = this->movingTriangles();
     for (const std::int32_t t : this->Moving)
     {
       const Box box = this->sweptBy(std::size_t(t));
       this->Swept.emplace_back(box.min() - slack, box.max() + slack);
     }
     const BoxTree tree(this->Swept, this->Run);
-    const auto isNear = [&](std::size_t t)
+    this->CellsMet = cellsMet(this->lattice(), this->Swept);
+    const std::vector<std::int32_t> triangles = this->withMoving(this->Cells.ofCells(this->CellsMet));
+    const auto isNear = [&](std::size_t n)
     {
       bool near = false;
-      tree.overlapping(this->sweptBy(t), [&](std::int32_t) { near = true; });
+      tree.overlapping(this->sweptBy(std::size_t(triangles[n])), [&](std::int32_t) { near = true; });
       return near;
     };
-    this->Near = IntersectionsNear(this->TheMesh, indicesWhere(count, 1024, this->Run, isNear));
+    std::vector<std::int32_t> near;
+    for (const std::int32_t n : indicesWhere(triangles.size(), 256, this->Run, isNear))
+    {
+      near.push_back(triangles[std::size_t(n)]);
+    }
+    this->Near = IntersectionsNear(this->TheMesh, std::move(near));
     this->Run.checkpoint(0.4);
+  }
+
+  /** The triangles that may lie in the rows along x of octants that are swept. */
+  MeshPart inSweptRows() const
+  {
+    const int cells = this->lattice().cells();
+    std::vector<std::uint8_t> rows(std::size_t(cells) * std::size_t(cells), 0);
+    for (const std::uint64_t code : this->CellsMet)
+    {
+      const LatticePoint p = fromMorton(code);
+      for (int k = std::max(p.k - 1, 0); k <= std::min(p.k + 1, cells - 1); ++k)
+      {
+        for (int j = std::max(p.j - 1, 0); j <= std::min(p.j + 1, cells - 1); ++j)
+        {
+          rows[std::size_t(k) * std::size_t(cells) + std::size_t(j)] = 1;
+        }
+      }
+    }
+    return { this->TheMesh, this->withMoving(this->Cells.inRows(rows, this->lattice(), this->Run)) };
   }
 
   void withdrawIntersections()
@@ -338,28 +401,39 @@ private:
     return any;
   }
 
-  /** Six times the signed volume of a component. */
+  /** Six times a signed volume. */
   struct Volume
   {
     double before = 0.0, now = 0.0;
+
+    double growth() const { return this->now - this->before; }
   };
 
   using Volumes = std::map<std::uint32_t, Volume>; ///< of components, by their first points
 
-  /** Adds a triangle's share to its component's; the points of one component are measured from its first. */
-  void addVolume(const Triangle& t, Volumes& volumes)
+  /** A triangle's share in that, seen from a point of the mesh. */
+  Volume sixfoldVolume(std::int32_t from, const Triangle& t) const
   {
     const auto product = [](const Vector3& o, const Vector3& a, const Vector3& b, const Vector3& c)
     { return (a - o).cross(b - o).dot(c - o); };
     const auto& points = this->TheMesh.points;
-    const std::uint32_t first = this->Components.find(std::uint32_t(t[0]));
-    Volume& volume = volumes[first];
-    const double now = product(points[first], points[t[0]], points[t[1]], points[t[2]]);
     const auto isStill = [&](std::int32_t p) { return this->Number[std::size_t(p)] < 0; };
-    volume.now += now;
-    volume.before += isStill(std::int32_t(first)) && std::all_of(t.begin(), t.end(), isStill)
-      ? now
-      : product(this->original(std::int32_t(first)), this->original(t[0]), this->original(t[1]), this->original(t[2]));
+    Volume volume;
+    volume.now = product(points[std::size_t(from)], points[t[0]], points[t[1]], points[t[2]]);
+    volume.before = isStill(from) && std::all_of(t.begin(), t.end(), isStill)
+      ? volume.now
+      : product(this->original(from), this->original(t[0]), this->original(t[1]), this->original(t[2]));
+    return volume;
+  }
+
+  /** Adds a triangle's share to its component's; the points of one component are measured from its first. */
+  void addVolume(const Triangle& t, Volumes& volumes)
+  {
+    const std::uint32_t first = this->Components.find(std::uint32_t(t[0]));
+    const Volume own = this->sixfoldVolume(std::int32_t(first), t);
+    Volume& volume = volumes[first];
+    volume.now += own.now;
+    volume.before += own.before;
   }
 
   Volumes volumes()
@@ -390,9 +464,41 @@ private:
     return all;
   }
 
+  /** May a component's volume be less than it was? Triangles that move, and share points, change it by what their points sweep, wherever that is measured from. */
+  bool mayShrink() const
+  {
+    std::vector<std::int32_t> points;
+    for (const std::int32_t t : this->Moving)
+    {
+      const Triangle& triangle = this->TheMesh.triangles[std::size_t(t)];
+      points.insert(points.end(), triangle.begin(), triangle.end());
+    }
+    sortUnique(points);
+    const auto number = [&](std::int32_t p) { return std::uint32_t(std::lower_bound(points.begin(), points.end(), p) - points.begin()); };
+    UnionFind together(points.size());
+    for (const std::int32_t t : this->Moving)
+    {
+      const Triangle& triangle = this->TheMesh.triangles[std::size_t(t)];
+      together.unite(number(triangle[0]), number(triangle[1]));
+      together.unite(number(triangle[0]), number(triangle[2]));
+    }
+    std::vector<double> growth(points.size(), 0.0); // of those that stand for others
+    for (const std::int32_t t : this->Moving)
+    {
+      const Triangle& triangle = this->TheMesh.triangles[std::size_t(t)];
+      const std::uint32_t set = together.find(number(triangle[0]));
+      growth[set] += this->sixfoldVolume(points[set], triangle).growth();
+    }
+    return std::any_of(growth.begin(), growth.end(), [](double volume) { return volume < 0.0; });
+  }
+
   /** Withdraw components that the moves have turned inside out; false where there are none. */
   bool withdrawInverted()
   {
+    if (!this->mayShrink())
+    {
+      return false;
+    }
     if (this->Components.size() == 0)
     {
       this->Components = connectPoints(this->TheMesh.triangles, this->TheMesh.points.size(), this->Run);
@@ -435,12 +541,14 @@ private:
     Phase phase(this->Run, 0.9, 0.9);
     if (!this->Survivors)
     {
-      this->Survivors.emplace(this->Thin.octree, this->TheMesh, this->Swept, this->Run);
-      this->Lost = this->Survivors->lost(this->TheMesh, phase);
+      this->InRows = this->inSweptRows();
+      const Mesh part = this->InRows.of(this->TheMesh);
+      this->Survivors.emplace(this->Thin.octree, part, this->Swept, this->Run);
+      this->Lost = this->Survivors->lost(part, phase);
     }
     else
     {
-      this->Lost = this->Survivors->lostWithin(this->changedBoxes(), this->TheMesh, phase);
+      this->Lost = this->Survivors->lostWithin(this->changedBoxes(), this->InRows.of(this->TheMesh), phase);
     }
     this->LostAt = this->Now++;
     const auto& lost = this->Lost;
@@ -487,6 +595,7 @@ private:
   const ThinSurface& Thin;
   Mesh& TheMesh;
   Execution& Run;
+  CellTriangles Cells;
   std::vector<std::int32_t> Number; ///< of each point among those that move, or -1
   std::vector<std::size_t> Points;  ///< that move
   std::vector<Vector3> Original;    ///< their places before
@@ -500,7 +609,9 @@ private:
   std::uint64_t MetAt = 0;              ///< when these were looked for last
   std::vector<std::int32_t> Moving; ///< triangles
   std::vector<Box> Swept;           ///< by each of them
-  std::optional<CoverageNear> Survivors;
+  std::vector<std::uint64_t> CellsMet; ///< by these boxes
+  MeshPart InRows;                  ///< what may lie in their rows
+  std::optional<CoverageNear> Survivors; ///< of that part
   std::vector<std::uint64_t> Lost; ///< when they were looked at last
   std::uint64_t LostAt = 0;
 };
