@@ -177,14 +177,14 @@ std::vector<std::uint16_t> shellVotes(
 
 LatticeLabels::LatticeLabels(
   const Octree& octree, CornerShell shell, const PreparedViews& views, Execution& execution)
-  : TheOctree(&octree)
+  : Far(octree)
   , Shell(std::move(shell))
 {
   this->labelByVotes(shellVotes(octree, this->Shell, LatticeViews(views, octree.lattice), execution), execution);
 }
 
 LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint16_t>& votes, Execution& execution)
-  : TheOctree(&octree)
+  : Far(octree)
   , Shell(std::move(shell))
 {
   this->labelByVotes(votes, execution);
@@ -193,15 +193,15 @@ LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const std:
 void LatticeLabels::labelByVotes(const std::vector<std::uint16_t>& votes, Execution& execution)
 {
   // Mostly the shell has no other cells than the octree's intersection octants, all of which it has.
-  if (this->TheOctree->count(OctantState::Intersection, this->TheOctree->lattice.depth) == this->Shell.cells.size())
+  if (this->octree().count(OctantState::Intersection, this->octree().lattice.depth) == this->Shell.cells.size())
   {
     this->Survivor.assign(this->Shell.cells.size(), 1);
   }
   else
   {
-    this->setSurvivors(leafCells(*this->TheOctree, OctantState::Intersection));
+    this->setSurvivors(leafCells(this->octree(), OctantState::Intersection));
   }
-  const int required = this->TheOctree->viewCount - this->TheOctree->backgroundVotes;
+  const int required = this->octree().viewCount - this->octree().backgroundVotes;
   resizeSideBySide(this->Support, votes.size(), execution);
   resizeSideBySide(this->Inside, votes.size(), execution);
   execution.forRanges(votes.size(), 4096,
@@ -210,13 +210,13 @@ void LatticeLabels::labelByVotes(const std::vector<std::uint16_t>& votes, Execut
       for (std::size_t c = first; c < last; ++c)
       {
         this->Support[c] = votes[c];
-        this->Inside[c] = votes[c] >= required && !this->TheOctree->lattice.onBorder(fromMorton(this->Shell.corners[c]));
+        this->Inside[c] = votes[c] >= required && !this->octree().lattice.onBorder(fromMorton(this->Shell.corners[c]));
       }
     });
 }
 
 LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const SurfaceCrossings& crossings)
-  : TheOctree(&octree)
+  : Far(octree)
   , Shell(std::move(shell))
   , Inside(Shell.corners.size(), Unknown)
   , Support(Shell.corners.size(), 0.0f)
@@ -243,9 +243,8 @@ LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const Surf
 }
 
 LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const BrickField& field, Execution& execution)
-  : TheOctree(&octree)
+  : Far(octree, &field)
   , Shell(std::move(shell))
-  , Field(&field)
 {
   this->setSurvivors(leafCells(octree, OctantState::Intersection));
   resizeSideBySide(this->Inside, this->Shell.corners.size(), execution);
@@ -258,7 +257,7 @@ LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const Bric
       for (std::size_t c = first; c < last;)
       {
         const std::uint64_t block = corners[c] >> 6;
-        const std::uint64_t inside = this->unlabelledOfBlock(block, octants) & withinBorder(octree.lattice, block);
+        const std::uint64_t inside = this->Far.insideOfBlock(block, octants) & withinBorder(octree.lattice, block);
         const std::ptrdiff_t point = field.find(64 * block);
         for (; c < last && corners[c] >> 6 == block; ++c)
         {
@@ -330,7 +329,7 @@ void LatticeLabels::widen(CornerShell shell, Execution& execution)
     [&](std::size_t first, std::size_t last)
     {
       CodeCursor known(this->Shell.corners);
-      OctantCursor octants(*this->TheOctree);
+      OctantCursor octants(this->octree());
       for (std::size_t c = first; c < last;)
       {
         const std::uint64_t block = shell.corners[c] >> 6;
@@ -352,6 +351,7 @@ void LatticeLabels::widen(CornerShell shell, Execution& execution)
       survivors.push_back(this->Shell.cells[cell]);
     }
   }
+  this->Blocks.reset();
   this->Shell = std::move(shell);
   this->Inside = std::move(inside);
   this->Support = std::move(support);
@@ -361,7 +361,7 @@ void LatticeLabels::widen(CornerShell shell, Execution& execution)
 void LatticeLabels::fromOctree()
 {
   auto& known = this->Inside;
-  const Lattice& lattice = this->TheOctree->lattice;
+  const Lattice& lattice = this->octree().lattice;
   for (std::size_t c = 0; c < known.size(); ++c)
   {
     const LatticePoint p = fromMorton(this->Shell.corners[c]);
@@ -374,7 +374,7 @@ void LatticeLabels::fromOctree()
     for (int n = 0; n < 8; ++n)
     {
       const LatticePoint o = cornerOffset(n);
-      const auto state = this->TheOctree->locate({ p.i - o.i, p.j - o.j, p.k - o.k }).state;
+      const auto state = this->octree().locate({ p.i - o.i, p.j - o.j, p.k - o.k }).state;
       inside |= state == OctantState::Inside;
       background |= state == OctantState::Background;
     }
@@ -384,50 +384,43 @@ void LatticeLabels::fromOctree()
 
 void LatticeLabels::fillOctant(int generation, std::size_t index)
 {
-  const std::pair<int, std::size_t> octant(generation, index);
-  this->Filled.insert(std::lower_bound(this->Filled.begin(), this->Filled.end(), octant), octant);
+  this->Blocks.reset();
+  this->Far.fillOctant(generation, index);
+}
+
+const LabelBlocks& LatticeLabels::blocks(Execution& execution) const
+{
+  if (!this->Blocks)
+  {
+    this->Blocks = std::make_shared<const LabelBlocks>(this->Shell, this->Far, execution);
+  }
+  return *this->Blocks;
 }
 
 bool LatticeLabels::insideAt(const LatticePoint& p) const
 {
-  if (this->TheOctree->lattice.onBorder(p))
+  if (this->octree().lattice.onBorder(p))
   {
     return false;
   }
-  const std::ptrdiff_t corner = this->Shell.find(mortonCode(p));
-  return corner >= 0 ? this->Inside[corner] != 0 : this->unlabelled(p);
-}
-
-bool LatticeLabels::unlabelled(const LatticePoint& p) const
-{
-  if (this->TheOctree->lattice.onBorder(p))
+  const std::uint64_t code = mortonCode(p);
+  const std::ptrdiff_t place = this->Blocks ? this->Blocks->blocks().find(code >> 6) : -1;
+  if (place >= 0)
   {
-    return false;
+    return this->Blocks->inside(std::size_t(place), int(code & 63), this->Inside);
   }
-  const std::ptrdiff_t point = this->Field ? this->Field->find(mortonCode(p)) : -1;
-  if (point >= 0)
-  {
-    return this->Field->values()[point] > 0.0f;
-  }
-  if (this->Field)
-  {
-    return this->TheOctree->touchesInside(p);
-  }
-  // No intersection octant of the last generation touches it: every octant around it tells.
-  return this->isInside(this->TheOctree->locate(p));
-}
-
-/** By the octree and the cavities that were filled. */
-bool LatticeLabels::isInside(const Octree::Location& octant) const
-{
-  return octant.state == OctantState::Inside ||
-    (!this->Filled.empty() &&
-      std::binary_search(this->Filled.begin(), this->Filled.end(), std::make_pair(octant.generation, octant.index)));
+  const std::ptrdiff_t corner = this->Blocks ? -1 : this->Shell.find(code);
+  return corner >= 0 ? this->Inside[std::size_t(corner)] != 0 : this->Far.insideAt(p);
 }
 
 std::uint64_t LatticeLabels::insideOfBlock(std::uint64_t block) const
 {
-  OctantCursor octants(*this->TheOctree);
+  const std::ptrdiff_t place = this->Blocks ? this->Blocks->blocks().find(block) : -1;
+  if (place >= 0)
+  {
+    return this->Blocks->inside(std::size_t(place), this->Inside);
+  }
+  OctantCursor octants(this->octree());
   Corner corner = std::lower_bound(this->Shell.corners.begin(), this->Shell.corners.end(), 64 * block);
   return this->insideOfBlock(block, corner, octants);
 }
@@ -435,18 +428,16 @@ std::uint64_t LatticeLabels::insideOfBlock(std::uint64_t block) const
 std::vector<std::uint64_t> LatticeLabels::insideOfBlocks(const std::vector<std::uint64_t>& blocks, Execution& execution) const
 {
   std::vector<std::uint64_t> inside(blocks.size());
+  const LabelBlocks& known = this->blocks(execution);
   execution.forRanges(blocks.size(), 256,
     [&](std::size_t first, std::size_t last)
     {
-      OctantCursor octants(*this->TheOctree);
-      Corner corner = std::lower_bound(this->Shell.corners.begin(), this->Shell.corners.end(), 64 * blocks[first]);
+      OctantCursor octants(this->octree());
       for (std::size_t b = first; b < last; ++b)
       {
-        while (corner != this->Shell.corners.end() && *corner >> 6 < blocks[b])
-        {
-          ++corner;
-        }
-        inside[b] = this->insideOfBlock(blocks[b], corner, octants);
+        const std::ptrdiff_t place = known.blocks().find(blocks[b]);
+        inside[b] = place >= 0 ? known.inside(std::size_t(place), this->Inside)
+                               : withinBorder(this->octree().lattice, blocks[b]) & this->Far.insideOfBlock(blocks[b], octants);
       }
     });
   return inside;
@@ -455,7 +446,7 @@ std::vector<std::uint64_t> LatticeLabels::insideOfBlocks(const std::vector<std::
 /** `corner`: the shell's first that is not before the block; then the first after it. */
 std::uint64_t LatticeLabels::insideOfBlock(std::uint64_t block, Corner& corner, OctantCursor& octants) const
 {
-  const std::uint64_t within = withinBorder(this->TheOctree->lattice, block);
+  const std::uint64_t within = withinBorder(this->octree().lattice, block);
   std::uint64_t known = 0, inside = 0;
   for (; corner != this->Shell.corners.end() && *corner >> 6 == block; ++corner)
   {
@@ -465,29 +456,9 @@ std::uint64_t LatticeLabels::insideOfBlock(std::uint64_t block, Corner& corner, 
   const std::uint64_t unknown = within & ~known;
   if (unknown != 0)
   {
-    inside |= unknown & this->unlabelledOfBlock(block, octants);
+    inside |= unknown & this->Far.insideOfBlock(block, octants);
   }
   return inside & within;
-}
-
-/**
- * A block lies in one of the field's bricks, or in none. Without a field each point's octant tells, the one that has it for its lowest corner or holds
- * that one.
- */
-std::uint64_t LatticeLabels::unlabelledOfBlock(std::uint64_t block, OctantCursor& octants) const
-{
-  if (!this->Field)
-  {
-    return octants.cellsOfBlock(block, [this](const Octree::Location& octant) { return this->isInside(octant); });
-  }
-  const std::ptrdiff_t first = this->Field->find(64 * block);
-  if (first >= 0)
-  {
-    return positiveBits(&this->Field->values()[std::size_t(first)]);
-  }
-  return pointsTouching(block,
-    [&](std::uint64_t other)
-    { return octants.cellsOfBlock(other, [](const Octree::Location& octant) { return octant.state == OctantState::Inside; }); });
 }
 
 int LatticeLabels::cellsAround(const LatticePoint& p, std::array<std::uint32_t, 8>& cells) const

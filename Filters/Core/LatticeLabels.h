@@ -5,11 +5,11 @@
  */
 #pragma once
 
-#include "BrickField.h"
-#include "CornerShell.h"
+#include "LabelBlocks.h"
 #include "Mesh.h"
 #include "PreparedViews.h"
 
+#include <memory>
 #include <vector>
 
 namespace silhouette
@@ -78,8 +78,8 @@ public:
   /** Take these cells (Morton codes, ascending) for the survivors, instead of the octree's intersection octants. */
   void setSurvivors(const std::vector<std::uint64_t>& cells);
 
-  const Octree& octree() const { return *this->TheOctree; }
-  const BrickField* field() const { return this->Field; }
+  const Octree& octree() const { return this->Far.octree(); }
+  const BrickField* field() const { return this->Far.field(); }
   const CornerShell& shell() const { return this->Shell; }
   const std::vector<std::uint8_t>& inside() const { return this->Inside; }
   /**
@@ -100,6 +100,12 @@ public:
    */
   void widen(CornerShell shell, Execution& execution);
 
+  /**
+   * Where labels may differ from one point to the next. Made when first it is asked for, and again where the shell or an octant has changed: to be asked for by one thread at a
+   * time. What the labels say about points and blocks is told faster with it.
+   */
+  const LabelBlocks& blocks(Execution& execution) const;
+
   /** Label of any lattice point. */
   bool insideAt(const LatticePoint& p) const;
   /** Labels of the 4 x 4 x 4 points of Morton codes 64 `block` to 64 `block` + 63, a bit each, the first the lowest; 1 inside. */
@@ -112,23 +118,18 @@ public:
   int cellsAround(const LatticePoint& p, std::array<std::uint32_t, 8>& cells) const;
 
 private:
-  /** Label of a lattice point that is no corner of the shell. */
-  bool unlabelled(const LatticePoint& p) const;
   using Corner = std::vector<std::uint64_t>::const_iterator;
   std::uint64_t insideOfBlock(std::uint64_t block, Corner& corner, OctantCursor& octants) const;
-  std::uint64_t unlabelledOfBlock(std::uint64_t block, OctantCursor& octants) const;
-  bool isInside(const Octree::Location& octant) const;
   void labelByVotes(const std::vector<std::uint16_t>& votes, Execution& execution);
   void fromOctree();
   void spread(const SurfaceCrossings& crossings);
 
-  const Octree* TheOctree;
+  FarLabels Far; ///< of other points than the shell's corners
   CornerShell Shell;
   std::vector<std::uint8_t> Inside;
   std::vector<std::uint8_t> Survivor;
   std::vector<float> Support;
-  const BrickField* Field = nullptr;
-  std::vector<std::pair<int, std::size_t>> Filled; ///< sorted
+  mutable std::shared_ptr<const LabelBlocks> Blocks; ///< or nothing
 };
 
 } // namespace silhouette

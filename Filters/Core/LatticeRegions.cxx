@@ -16,20 +16,6 @@ namespace
 
 using Sets = std::set<std::uint32_t>;
 
-/** The blocks of sorted codes of points. */
-std::vector<std::uint64_t> blocksOf(const std::vector<std::uint64_t>& points)
-{
-  std::vector<std::uint64_t> blocks;
-  for (const std::uint64_t point : points)
-  {
-    if (blocks.empty() || blocks.back() != point >> 6)
-    {
-      blocks.push_back(point >> 6);
-    }
-  }
-  return blocks;
-}
-
 /** Call `work(generation, index)` for the octants of one state, up to a generation. */
 template <typename Work>
 void forOctants(const Octree& octree, OctantState state, int last, const Work& work)
@@ -104,27 +90,9 @@ void removeSupported(const LatticeLabels& labels, BlockRegions& regions, Sets& s
 
 } // namespace
 
-std::vector<std::uint64_t> labelledBlocks(const LatticeLabels& labels)
-{
-  std::vector<std::uint64_t> blocks = united(blocksOf(labels.shell().corners), subdividedBlocks(labels.octree()));
-  if (labels.field())
-  {
-    std::vector<std::uint64_t> ofField;
-    for (const std::uint64_t brick : labels.field()->bricks())
-    {
-      for (std::uint64_t n = 0; n < 8; ++n)
-      {
-        ofField.push_back(8 * brick + n);
-      }
-    }
-    blocks = united(blocks, ofField);
-  }
-  return blocks;
-}
-
 BlockRegions connectRegions(const LatticeLabels& labels, bool inside, Execution& execution)
 {
-  BlockIndex blocks(labelledBlocks(labels));
+  BlockIndex blocks = labels.blocks(execution).blocks();
   std::vector<std::uint64_t> members = labels.insideOfBlocks(blocks.codes(), execution);
   if (!inside)
   {

@@ -15,9 +15,6 @@
 namespace silhouette
 {
 
-/** Blocks with corners of the labels' shell, with octants smaller than a block, and those where the labels' field has values: elsewhere octants tell. */
-std::vector<std::uint64_t> labelledBlocks(const LatticeLabels& labels);
-
 /** Regions of the points with the given label. */
 BlockRegions connectRegions(const LatticeLabels& labels, bool inside, Execution& execution);
 

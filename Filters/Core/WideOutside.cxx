@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WideOutside.h"
 
-#include "LatticeRegions.h"
 
 #include <algorithm>
 
@@ -12,7 +11,7 @@ namespace
 
 BlockRegions wideRegions(const LatticeLabels& labels, const NarrowOutside& narrow, Execution& execution)
 {
-  BlockIndex blocks(united(labelledBlocks(labels), narrow.blocks()));
+  BlockIndex blocks(united(labels.blocks(execution).blocks().codes(), narrow.blocks()));
   const std::vector<std::uint64_t> wide = narrow.wideOfBlocks(blocks.codes(), execution);
   return BlockRegions(labels.octree(), OctantState::Background, Steps::Faces, std::move(blocks), wide, narrow.points().size(), execution);
 }
