@@ -4,6 +4,7 @@
 #include "CodeCursor.h"
 #include "Error.h"
 #include "NarrowOutside.h"
+#include "PointClusters.h"
 #include "SimplePoint.h"
 #include "UnionFind.h"
 #include "WideOutside.h"
@@ -48,16 +49,12 @@ void check(const TunnelFillingOptions& options)
   }
 }
 
-/** Parts of the lattice points: narrow ones become taken, all others stay. For one thread at a time. */
+/** Parts of the lattice points: narrow ones become taken, all others stay. Those of different points may be changed at the same time. */
 class Parts
 {
 public:
-  Parts(const Parts&) = delete; // the cursor is this one's
-  Parts& operator=(const Parts&) = delete;
-
   Parts(const LatticeLabels& labels, int width, Execution& execution)
     : Outside(labels, width, execution)
-    , Cursor(this->Outside)
     , Values(this->Outside.points().size(), Narrow)
   {
   }
@@ -68,6 +65,23 @@ public:
   std::uint64_t code(std::size_t n) const { return this->Outside.points()[n]; }
   Part operator[](std::size_t n) const { return Part(this->Values[n]); }
   void take(std::size_t n) { this->Values[n] = Taken; }
+  void giveBack(std::size_t n) { this->Values[n] = Narrow; }
+
+private:
+  NarrowOutside Outside;
+  std::vector<std::uint8_t> Values;
+};
+
+/** Asks about points near one another. For one thread at a time. */
+class PartCursor
+{
+public:
+  explicit PartCursor(const Parts& parts)
+    : All(parts)
+    , Cursor(parts.outside())
+  {
+  }
+
   std::ptrdiff_t find(const LatticePoint& p) const { return this->Cursor.find(p); }
   /** The part of any lattice point. */
   Part at(const LatticePoint& p) const
@@ -79,105 +93,68 @@ public:
       case NarrowOutside::Label::Wide:
         return Wide;
       default:
-        return (*this)[std::size_t(this->find(p))];
+        return this->All[std::size_t(this->find(p))];
     }
   }
 
 private:
-  NarrowOutside Outside;
+  const Parts& All;
   NarrowCursor Cursor;
-  std::vector<std::uint8_t> Values;
 };
 
-class Growth
+/** What of the wide outside is connected, with what was taken: looked for when first it is asked for, which on most objects is never. */
+class WideSets
 {
 public:
-  Growth(const LatticeLabels& labels, Parts& parts, int width, Execution& execution)
+  WideSets(const LatticeLabels& labels, const Parts& parts, Execution& execution)
     : Labels(labels)
-    , Outside(parts)
-    , Width(width)
+    , All(parts)
+    , Near(parts)
     , Run(execution)
-    , Supports(parts.size())
-    , IsInFront(parts.size(), 0)
   {
-    execution.forRanges(parts.size(), 1024,
-      [&](std::size_t first, std::size_t last)
-      {
-        CodeCursor shell(labels.shell().corners);
-        for (std::size_t n = first; n < last; ++n)
-        {
-          const std::ptrdiff_t corner = shell.find(parts.code(n));
-          this->Supports[n] = corner >= 0 ? labels.support()[std::size_t(corner)] : -1e30f;
-        }
-      });
-    for (std::size_t n = 0; n < parts.size(); ++n)
-    {
-      if (parts[n] == Narrow)
-      {
-        this->Remaining.push_back(n);
-        this->push(n);
-      }
-    }
   }
 
-  void run()
+  /** How many sets of it a point touches. */
+  int touching(const LatticePoint& p)
   {
-    while (!this->Front.empty())
+    this->join();
+    std::vector<std::uint32_t> roots;
+    for (const int a : EdgeNeighbours)
     {
-      const std::size_t n = std::get<2>(this->Front.top());
-      this->Front.pop();
-      this->IsInFront[n] = 0;
-      if (this->Outside[n] == Narrow && this->mayTake(n))
+      const LatticePoint q = neighbourOf(p, a);
+      const Part part = this->Near.at(q);
+      const std::uint32_t root = part == Wide ? this->Sets->setOf(q)
+        : part == Taken                       ? this->Sets->setOf(std::size_t(this->Near.find(q)))
+                                              : WideOutside::Nowhere;
+      if (root != WideOutside::Nowhere)
       {
-        this->take(n);
+        roots.push_back(root);
       }
     }
-    const auto taken = [&](std::size_t n) { return this->Outside[n] != Narrow; };
-    this->Remaining.erase(std::remove_if(this->Remaining.begin(), this->Remaining.end(), taken), this->Remaining.end());
+    std::sort(roots.begin(), roots.end());
+    return int(std::unique(roots.begin(), roots.end()) - roots.begin());
   }
 
-  /** Groups of remaining points, 26-neighbours being together, each ascending. */
-  std::vector<std::vector<std::size_t>> walls()
+  /** A point has been taken. */
+  void take(std::size_t n)
   {
-    UnionFind sets(this->Remaining.size());
-    for (std::size_t r = 0; r < this->Remaining.size(); ++r)
+    if (this->Sets)
     {
-      const LatticePoint p = fromMorton(this->Outside.code(this->Remaining[r]));
-      for (int n = 0; n < 27; ++n)
-      {
-        const std::ptrdiff_t other = this->Outside.find(neighbourOf(p, n));
-        const auto at = std::lower_bound(this->Remaining.begin(), this->Remaining.end(), std::size_t(std::max<std::ptrdiff_t>(other, 0)));
-        if (other >= 0 && at != this->Remaining.end() && *at == std::size_t(other))
-        {
-          sets.unite(std::uint32_t(r), std::uint32_t(at - this->Remaining.begin()));
-        }
-      }
+      this->joinTaken(n);
     }
-    std::vector<std::vector<std::size_t>> groups(this->Remaining.size());
-    for (std::size_t r = 0; r < this->Remaining.size(); ++r)
-    {
-      groups[sets.find(std::uint32_t(r))].push_back(this->Remaining[r]);
-    }
-    groups.erase(std::remove_if(groups.begin(), groups.end(), [](const auto& g) { return g.empty(); }), groups.end());
-    return groups;
-  }
-
-  /** Open a wall where least speaks for it, and go on. */
-  void open(const std::vector<std::size_t>& wall)
-  {
-    const auto weaker = [&](std::size_t a, std::size_t b) { return this->Supports[a] < this->Supports[b]; };
-    this->take(*std::min_element(wall.begin(), wall.end(), weaker));
-    this->run();
   }
 
 private:
-  /** This is done when first it is asked for, which on most objects is never. */
-  void joinWide()
+  void join()
   {
-    this->Sets.emplace(this->Labels, this->Outside.outside(), this->Run);
-    for (std::size_t n = 0; n < this->Outside.size(); ++n)
+    if (this->Sets)
     {
-      if (this->Outside[n] == Taken)
+      return;
+    }
+    this->Sets.emplace(this->Labels, this->All.outside(), this->Run);
+    for (std::size_t n = 0; n < this->All.size(); ++n)
+    {
+      if (this->All[n] == Taken)
       {
         this->joinTaken(n);
       }
@@ -186,28 +163,116 @@ private:
 
   void joinTaken(std::size_t n)
   {
-    const LatticePoint p = fromMorton(this->Outside.code(n));
+    const LatticePoint p = fromMorton(this->All.code(n));
     for (const int a : EdgeNeighbours)
     {
       const LatticePoint q = neighbourOf(p, a);
-      const Part part = this->Outside.at(q);
+      const Part part = this->Near.at(q);
       if (part == Wide)
       {
         this->Sets->join(n, q);
       }
       else if (part == Taken)
       {
-        this->Sets->join(n, std::size_t(this->Outside.find(q)));
+        this->Sets->join(n, std::size_t(this->Near.find(q)));
       }
     }
   }
 
+  const LatticeLabels& Labels;
+  const Parts& All;
+  PartCursor Near;
+  Execution& Run;
+  std::optional<WideOutside> Sets;
+};
+
+/** The narrow points that the wide outside grows into: those that it touches, where that joins no parts of it that are not connected otherwise. */
+class Front
+{
+public:
+  /** `supports`: how much speaks for each point's being inside; `waiting`: for each point 0 where it waits in no front. */
+  Front(const LatticeLabels& labels, Parts& parts, int width, const std::vector<float>& supports, std::vector<std::uint8_t>& waiting)
+    : Labels(labels)
+    , Outside(parts)
+    , Near(parts)
+    , Width(width)
+    , Supports(supports)
+    , Waiting(waiting)
+  {
+  }
+
   void push(std::size_t n)
   {
-    if (!std::exchange(this->IsInFront[n], std::uint8_t(1)))
+    if (!std::exchange(this->Waiting[n], std::uint8_t(1)))
     {
-      this->Front.emplace(-this->Supports[n], -std::ptrdiff_t(n), n);
+      this->Points.emplace(-this->Supports[n], -std::ptrdiff_t(n), n);
     }
+  }
+
+  /** Grow, least support first, then the first in lattice order. False where it takes the sets to tell, and these are not given. */
+  bool run(WideSets* sets)
+  {
+    while (!this->Points.empty())
+    {
+      const std::size_t n = std::get<2>(this->Points.top());
+      this->Points.pop();
+      this->Waiting[n] = 0;
+      if (this->Outside[n] != Narrow)
+      {
+        continue;
+      }
+      const LatticePoint p = fromMorton(this->Outside.code(n));
+      const int parts = this->partsAround(p);
+      if (parts > 1 && !sets)
+      {
+        return false;
+      }
+      if (parts == 1 || (parts > 1 && sets && sets->touching(p) == parts))
+      {
+        this->take(n, sets);
+      }
+    }
+    return true;
+  }
+
+  void take(std::size_t n, WideSets* sets)
+  {
+    this->Outside.take(n);
+    const LatticePoint p = fromMorton(this->Outside.code(n));
+    for (int a = 0; a < 27; ++a)
+    {
+      const std::ptrdiff_t other = this->Near.find(neighbourOf(p, a));
+      if (other >= 0 && this->Outside[std::size_t(other)] == Narrow)
+      {
+        this->push(std::size_t(other));
+      }
+    }
+    if (sets)
+    {
+      sets->take(n);
+    }
+  }
+
+  /** Forget whoever waits. */
+  void clear()
+  {
+    for (; !this->Points.empty(); this->Points.pop())
+    {
+      this->Waiting[std::get<2>(this->Points.top())] = 0;
+    }
+  }
+
+private:
+  /** Parts of the wide outside that a point touches; 0 where these are connected nearby. */
+  int partsAround(const LatticePoint& p) const
+  {
+    Neighbourhood labels;
+    for (int a = 0; a < 27; ++a)
+    {
+      labels[std::size_t(a)] = a != 13 && !isWide(this->Near.at(neighbourOf(p, a)));
+    }
+    const int touching = topologicalNumbers(labels).outside;
+    return touching > 1 && this->partsNearby(p) < touching ? 0 : touching;
   }
 
   /** Into how many parts the wide outside beside a point falls, if no way but through the points within two octants counts. */
@@ -222,7 +287,7 @@ private:
       const LatticePoint q = pointAt(n);
       const int cells = this->Labels.octree().lattice.cells();
       const bool ofLattice = std::min({ q.i, q.j, q.k }) >= 0 && std::max({ q.i, q.j, q.k }) <= cells;
-      wide[std::size_t(n)] = ofLattice && !(q == p) && isWide(this->Outside.at(q));
+      wide[std::size_t(n)] = ofLattice && !(q == p) && isWide(this->Near.at(q));
       const int steps[3] = { 1, side, side * side }, coordinates[3] = { n % side, n / side % side, n / side / side };
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -245,79 +310,132 @@ private:
     return int(std::unique(roots.begin(), roots.end()) - roots.begin());
   }
 
-  /** Does the outside touch the point, and with parts that are not connected otherwise? */
-  bool mayTake(std::size_t n)
-  {
-    const LatticePoint p = fromMorton(this->Outside.code(n));
-    Neighbourhood labels;
-    for (int a = 0; a < 27; ++a)
-    {
-      labels[a] = a != 13 && !isWide(this->Outside.at(neighbourOf(p, a)));
-    }
-    const int touching = topologicalNumbers(labels).outside;
-    if (touching <= 1)
-    {
-      return touching == 1;
-    }
-    if (this->partsNearby(p) < touching)
-    {
-      return false;
-    }
-    if (!this->Sets)
-    {
-      this->joinWide();
-    }
-    std::vector<std::uint32_t> roots;
-    for (const int a : EdgeNeighbours)
-    {
-      const LatticePoint q = neighbourOf(p, a);
-      const Part part = this->Outside.at(q);
-      const std::uint32_t root = part == Wide ? this->Sets->setOf(q)
-        : part == Taken                       ? this->Sets->setOf(std::size_t(this->Outside.find(q)))
-                                              : WideOutside::Nowhere;
-      if (root != WideOutside::Nowhere)
-      {
-        roots.push_back(root);
-      }
-    }
-    std::sort(roots.begin(), roots.end());
-    return std::unique(roots.begin(), roots.end()) - roots.begin() == touching;
-  }
-
-  void take(std::size_t n)
-  {
-    this->Outside.take(n);
-    const LatticePoint p = fromMorton(this->Outside.code(n));
-    for (int a = 0; a < 27; ++a)
-    {
-      const std::ptrdiff_t other = this->Outside.find(neighbourOf(p, a));
-      if (other >= 0 && this->Outside[other] == Narrow)
-      {
-        this->push(std::size_t(other));
-      }
-    }
-    if (this->Sets)
-    {
-      this->joinTaken(n);
-    }
-  }
-
   const LatticeLabels& Labels;
   Parts& Outside;
+  PartCursor Near;
+  int Width;
+  const std::vector<float>& Supports;
+  std::vector<std::uint8_t>& Waiting;
+  std::priority_queue<std::tuple<float, std::ptrdiff_t, std::size_t>> Points;
+};
+
+class Growth
+{
+public:
+  Growth(const LatticeLabels& labels, Parts& parts, int width, Execution& execution)
+    : Labels(labels)
+    , Outside(parts)
+    , Near(parts)
+    , Width(width)
+    , Run(execution)
+    , Supports(parts.size())
+    , Waiting(parts.size(), 0)
+    , All(labels, parts, width, this->Supports, this->Waiting)
+    , Sets(labels, parts, execution)
+  {
+    execution.forRanges(parts.size(), 1024,
+      [&](std::size_t first, std::size_t last)
+      {
+        CodeCursor shell(labels.shell().corners);
+        for (std::size_t n = first; n < last; ++n)
+        {
+          const std::ptrdiff_t corner = shell.find(parts.code(n));
+          this->Supports[n] = corner >= 0 ? labels.support()[std::size_t(corner)] : -1e30f;
+        }
+      });
+  }
+
+  /**
+   * Points far from one another are grown into side by side, where it takes none of the sets to tell: then the wide outside grows, but is connected as
+   * before, and it does not matter to the others when that comes.
+   */
+  void run()
+  {
+    const PointClusters clusters = clustersOf(this->Outside.outside().points(), this->Run);
+    std::vector<std::uint8_t> isGrown(clusters.size(), 0);
+    this->Run.forRanges(clusters.size(), 64,
+      [&](std::size_t first, std::size_t last)
+      {
+        Front front(this->Labels, this->Outside, this->Width, this->Supports, this->Waiting);
+        for (std::size_t cluster = first; cluster < last; ++cluster)
+        {
+          std::for_each(clusters.begin(cluster), clusters.end(cluster), [&](std::uint32_t n) { front.push(n); });
+          isGrown[cluster] = front.run(nullptr);
+          front.clear();
+        }
+      });
+    for (std::size_t cluster = 0; cluster < clusters.size(); ++cluster)
+    {
+      if (isGrown[cluster] == 0)
+      {
+        std::for_each(clusters.begin(cluster), clusters.end(cluster), [&](std::uint32_t n) { this->Outside.giveBack(n); });
+        std::for_each(clusters.begin(cluster), clusters.end(cluster), [&](std::uint32_t n) { this->All.push(n); });
+      }
+    }
+    this->All.run(&this->Sets);
+    for (std::size_t n = 0; n < this->Outside.size(); ++n)
+    {
+      if (this->Outside[n] == Narrow)
+      {
+        this->Remaining.push_back(n);
+      }
+    }
+  }
+
+  /** Groups of remaining points, 26-neighbours being together, each ascending. */
+  std::vector<std::vector<std::size_t>> walls()
+  {
+    UnionFind sets(this->Remaining.size());
+    for (std::size_t r = 0; r < this->Remaining.size(); ++r)
+    {
+      const LatticePoint p = fromMorton(this->Outside.code(this->Remaining[r]));
+      for (int n = 0; n < 27; ++n)
+      {
+        const std::ptrdiff_t other = this->Near.find(neighbourOf(p, n));
+        const auto at = std::lower_bound(this->Remaining.begin(), this->Remaining.end(), std::size_t(std::max<std::ptrdiff_t>(other, 0)));
+        if (other >= 0 && at != this->Remaining.end() && *at == std::size_t(other))
+        {
+          sets.unite(std::uint32_t(r), std::uint32_t(at - this->Remaining.begin()));
+        }
+      }
+    }
+    std::vector<std::vector<std::size_t>> groups(this->Remaining.size());
+    for (std::size_t r = 0; r < this->Remaining.size(); ++r)
+    {
+      groups[sets.find(std::uint32_t(r))].push_back(this->Remaining[r]);
+    }
+    groups.erase(std::remove_if(groups.begin(), groups.end(), [](const auto& g) { return g.empty(); }), groups.end());
+    return groups;
+  }
+
+  /** Open a wall where least speaks for it, and go on. */
+  void open(const std::vector<std::size_t>& wall)
+  {
+    const auto weaker = [&](std::size_t a, std::size_t b) { return this->Supports[a] < this->Supports[b]; };
+    this->All.take(*std::min_element(wall.begin(), wall.end(), weaker), &this->Sets);
+    this->All.run(&this->Sets);
+    const auto taken = [&](std::size_t n) { return this->Outside[n] != Narrow; };
+    this->Remaining.erase(std::remove_if(this->Remaining.begin(), this->Remaining.end(), taken), this->Remaining.end());
+  }
+
+private:
+  const LatticeLabels& Labels;
+  Parts& Outside;
+  PartCursor Near;
   int Width;
   Execution& Run;
-  std::optional<WideOutside> Sets; ///< what of the wide outside is connected; nothing until it is asked for
-  std::vector<std::size_t> Remaining;
-  std::vector<float> Supports; ///< how much speaks for each point's being inside
-  /** Least support first, then the first in lattice order. */
-  std::priority_queue<std::tuple<float, std::ptrdiff_t, std::size_t>> Front;
-  std::vector<std::uint8_t> IsInFront;
+  std::vector<std::size_t> Remaining; ///< narrow points that have not been taken; ascending
+  std::vector<float> Supports;        ///< how much speaks for each point's being inside
+  std::vector<std::uint8_t> Waiting;  ///< 1 for the points that a front holds
+  Front All;
+  WideSets Sets;
 };
 
 /** By how much the solid's Euler number rises where a wall is added to it: by 1 for each tunnel that it closes. */
 int eulerRise(const std::vector<std::size_t>& wall, const Parts& parts)
 {
   std::vector<std::uint64_t> added;
+  const PartCursor near(parts);
   int rise = 0;
   for (const std::size_t n : wall)
   {
@@ -325,7 +443,7 @@ int eulerRise(const std::vector<std::size_t>& wall, const Parts& parts)
     for (int a = 0; a < 27; ++a)
     {
       const LatticePoint p = neighbourOf(fromMorton(parts.code(n)), a);
-      around[a] = parts.at(p) == Solid || std::binary_search(added.begin(), added.end(), mortonCode(p));
+      around[a] = near.at(p) == Solid || std::binary_search(added.begin(), added.end(), mortonCode(p));
     }
     rise += eulerChange(around);
     added.insert(std::lower_bound(added.begin(), added.end(), parts.code(n)), parts.code(n));
