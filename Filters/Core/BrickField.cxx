@@ -2,6 +2,7 @@
 #include "BrickField.h"
 
 #include "Bits.h"
+#include "FirstTouch.h"
 #include "LatticeSurface.h"
 
 #include <algorithm>
@@ -231,31 +232,48 @@ private:
 
 } // namespace
 
-std::vector<std::uint64_t> bricksAround(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin)
+std::vector<std::uint64_t> bricksAround(
+  const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin, Execution& execution)
 {
-  std::vector<std::uint64_t> bricks;
-  BricksAsked asked(lattice, margin);
-  for (std::size_t n = 0; n < cells.size(); ++n)
-  {
-    asked.add(cells[n]);
-    if (n + 1 == cells.size() || cells[n + 1] / BrickField::BrickPoints != cells[n] / BrickField::BrickPoints)
+  constexpr std::size_t RangeSize = 1 << 15; // cells
+  std::vector<std::vector<std::uint64_t>> ofRanges((cells.size() + RangeSize - 1) / RangeSize);
+  execution.forRanges(ofRanges.size(), 1,
+    [&](std::size_t first, std::size_t last)
     {
-      asked.appendTo(bricks);
-      if (bricks.size() > (std::size_t(1) << 16) && bricks.capacity() - bricks.size() < asked.most())
+      BricksAsked asked(lattice, margin);
+      for (std::size_t range = first; range < last; ++range)
       {
+        std::vector<std::uint64_t>& bricks = ofRanges[range];
+        const std::size_t end = std::min((range + 1) * RangeSize, cells.size());
+        for (std::size_t n = range * RangeSize; n < end; ++n)
+        {
+          asked.add(cells[n]);
+          if (n + 1 == end || cells[n + 1] / BrickField::BrickPoints != cells[n] / BrickField::BrickPoints)
+          {
+            asked.appendTo(bricks);
+            if (bricks.size() > (std::size_t(1) << 16) && bricks.capacity() - bricks.size() < asked.most())
+            {
+              sortUnique(bricks);
+            }
+          }
+        }
         sortUnique(bricks);
       }
-    }
+    });
+  std::vector<std::uint64_t> bricks;
+  for (const auto& some : ofRanges)
+  {
+    bricks.insert(bricks.end(), some.begin(), some.end());
   }
   sortUnique(bricks);
   return bricks;
 }
 
-BrickField::BrickField(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin)
+BrickField::BrickField(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin, Execution& execution)
   : TheLattice(lattice)
-  , Bricks(bricksAround(lattice, cells, margin))
-  , Values(Bricks.size() * BrickPoints, 0.0f)
+  , Bricks(bricksAround(lattice, cells, margin, execution))
 {
+  resizeSideBySide(this->Values, this->Bricks.size() * BrickPoints, execution);
 }
 
 void BrickField::keepBricks(const std::vector<std::uint8_t>& keep)

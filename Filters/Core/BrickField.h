@@ -19,7 +19,8 @@ namespace silhouette
  * Morton codes, ascending, of the bricks that hold a point within `margin` octants of one of the given leaf cells (Morton codes). Cost: near-linear in
  * the cells, least where neighbours follow one another.
  */
-std::vector<std::uint64_t> bricksAround(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin);
+std::vector<std::uint64_t> bricksAround(
+  const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin, Execution& execution);
 
 /** Values in octants, positive inside, in Morton order of the points. */
 class BrickField
@@ -30,7 +31,7 @@ public:
 
   BrickField() = default;
   /** In bricksAround(), 0 everywhere. */
-  BrickField(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin);
+  BrickField(const Lattice& lattice, const std::vector<std::uint64_t>& cells, int margin, Execution& execution);
 
   const Lattice& lattice() const { return this->TheLattice; }
   /** Morton codes of the bricks, ascending; a brick's points have the codes 512 b to 512 b + 511. */

@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "FieldRefinement.h"
+#include "FirstTouch.h"
 #include "NearViews.h"
 #include "Vectorised.h"
 #include "ViewAgreement.h"
@@ -47,23 +48,66 @@ void check(const FieldCorrectionOptions& options)
   require(options.hullConvexity >= 0.0, "hull convexity", options.hullConvexity);
 }
 
-std::vector<std::uint64_t> cellsOf(const Mesh& surface, const Lattice& lattice)
+/** The Morton codes, ascending, of the leaf cells that the points of a surface lie in, those beyond the lattice in its outermost ones. */
+std::vector<std::uint64_t> cellsOf(const Mesh& surface, const Lattice& lattice, Execution& execution)
 {
-  std::vector<std::uint64_t> cells;
-  cells.reserve(surface.points.size());
-  const int last = lattice.cells() - 1;
-  for (const auto& p : surface.points)
-  {
-    const Eigen::Array3d x = ((p - lattice.root.origin).array() / lattice.leafEdge()).floor();
-    if (x.isFinite().all())
+  constexpr std::uint64_t nowhere = ~std::uint64_t(0);
+  const double cells = 1.0 / lattice.leafEdge(), last = lattice.cells() - 1;
+  std::vector<std::uint64_t> codes;
+  resizeSideBySide(codes, surface.points.size(), execution);
+  execution.forRanges(codes.size(), 4096,
+    [&](std::size_t first, std::size_t end)
     {
-      const auto c = x.max(0.0).min(double(last)).cast<int>().eval();
-      cells.push_back(mortonCode({ c[0], c[1], c[2] }));
+      for (std::size_t n = first; n < end; ++n)
+      {
+        const Eigen::Array3d x = (surface.points[n] - lattice.root.origin).array() * cells;
+        if (x.isFinite().all())
+        {
+          const Eigen::Array3i c = x.max(0.0).min(last).cast<int>(); // cut off: none is negative
+          codes[n] = mortonCode({ c[0], c[1], c[2] });
+        }
+        else
+        {
+          codes[n] = nowhere;
+        }
+      }
+    });
+  // Most come in the lattice's order.
+  std::vector<std::uint64_t> inOrder, others;
+  inOrder.reserve(codes.size());
+  for (const std::uint64_t code : codes)
+  {
+    if (inOrder.empty() || code > inOrder.back())
+    {
+      inOrder.push_back(code);
+    }
+    else if (code != inOrder.back())
+    {
+      others.push_back(code);
     }
   }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
+  sortUnique(others);
+  inOrder = united(inOrder, others);
+  if (!inOrder.empty() && inOrder.back() == nowhere)
+  {
+    inOrder.pop_back();
+  }
+  return inOrder;
+}
+
+/** The cells of a lattice with `halvings` generations less that these lie in; both ascending. */
+std::vector<std::uint64_t> coarserCells(const std::vector<std::uint64_t>& cells, int halvings)
+{
+  std::vector<std::uint64_t> coarser;
+  for (const std::uint64_t cell : cells)
+  {
+    const std::uint64_t code = cell >> 3 * halvings;
+    if (coarser.empty() || coarser.back() != code)
+    {
+      coarser.push_back(code);
+    }
+  }
+  return coarser;
 }
 
 /** The mean length of the shifts of the views that say anything. */
@@ -161,14 +205,13 @@ public:
     std::iota(this->All.begin(), this->All.end(), 0);
   }
 
-  /** `measured`: the residuals of some views against the surface. Lengths are octants of this lattice. */
-  void run(const std::vector<ContourResidual>& measured, FieldCorrection& result, Execution& execution)
+  /** `cells`: those of the surface's points; `measured`: the residuals of some views against the surface. Lengths are octants of this lattice. */
+  void run(const std::vector<std::uint64_t>& cells, const std::vector<ContourResidual>& measured, FieldCorrection& result, Execution& execution)
   {
     // As wide as smoothing reaches by one standard deviation, for the noise there is.
     this->Band = std::clamp(
       this->Options.smoothing * std::max(result.deficit, result.shift), 3.0 / this->Length.octants, 3.0 * this->Length.scale);
-    this->Least = BrickField(
-      this->Views.lattice(), cellsOf(this->Surface, this->Views.lattice()), int(std::ceil(this->Band)));
+    this->Least = BrickField(this->Views.lattice(), cells, int(std::ceil(this->Band)), execution);
     this->Views.observe(this->All, execution);
     result.remainingDeficit = result.deficit;
     if (this->Options.alignViews)
@@ -449,12 +492,13 @@ void correctOnCoarserLattice(const Mesh& surface, const Lattice& lattice, const 
   {
     residual.mean /= lengths.octants;
   }
-  Correction(surface, fieldViews, lengths, options).run(residuals, coarse, execution);
+  const std::vector<std::uint64_t> cells = cellsOf(surface, lattice, execution);
+  Correction(surface, fieldViews, lengths, options).run(coarserCells(cells, halvings), residuals, coarse, execution);
   result.remainingDeficit = coarse.remainingDeficit * lengths.octants;
   result.alignment = coarse.alignment;
   result.hull = coarse.hull;
   result.field = halvings == 0 ? std::move(coarse.field)
-                               : refinedField(*coarse.field, halvings, cellsOf(surface, lattice), RefinedMargin, execution);
+                               : refinedField(*coarse.field, halvings, cells, RefinedMargin, execution);
 }
 
 } // namespace

@@ -134,28 +134,29 @@ private:
   std::vector<float> Points, AlongI, AlongJ, AlongK;
 };
 
-/** The finer cells at both ends of each cell that the field's surface crosses. */
-void appendCrossed(const BrickField& field, int halvings, std::vector<std::uint64_t>& cells, Execution& execution)
+/** The finer cells at both ends of each cell that the field's surface crosses, ascending. */
+std::vector<std::uint64_t> crossedCells(const BrickField& field, int halvings, Execution& execution)
 {
+  std::vector<std::uint64_t> cells;
   for (const std::uint64_t cell : field.mixedCells(execution))
   {
     const std::uint64_t lowest = cell << (3 * halvings);
     cells.push_back(lowest);
     cells.push_back(lowest + (std::uint64_t(1) << (3 * halvings)) - 1);
   }
+  sortUnique(cells); // both are one where there are no halvings
+  return cells;
 }
 
 } // namespace
 
-BrickField refinedField(const BrickField& field, int halvings, std::vector<std::uint64_t> cells, int margin, Execution& execution)
+BrickField refinedField(const BrickField& field, int halvings, const std::vector<std::uint64_t>& cells, int margin, Execution& execution)
 {
   if (halvings < 0 || halvings > MostHalvings)
   {
     throw InvalidInput(std::to_string(halvings) + " halvings: 0 to " + std::to_string(MostHalvings) + " are possible");
   }
-  appendCrossed(field, halvings, cells, execution);
-  std::sort(cells.begin(), cells.end());
-  BrickField fine({ field.lattice().root, field.lattice().depth + halvings }, cells, margin);
+  BrickField fine({ field.lattice().root, field.lattice().depth + halvings }, united(cells, crossedCells(field, halvings, execution)), margin, execution);
   std::vector<std::uint8_t> known(fine.bricks().size());
   execution.forRanges(known.size(), 8,
     [&](std::size_t first, std::size_t last)

@@ -69,20 +69,41 @@ std::vector<std::uint64_t> disputedCells(const Octree& octree, const BrickField&
   return cells;
 }
 
-/**
- * Which points of a brick have a neighbour in a brick that is not there: by whether they are first, between or last along each axis. `present`: of the
- * bricks around.
- */
-std::array<bool, 27> pointsWhereBricksEnd(const std::array<bool, 27>& present)
+/** Sets of a brick's points: eight blocks, a bit each. */
+using BrickBits = std::array<std::uint64_t, 8>;
+
+/** For each of the 27 bricks around and including one, by neighbourOf(): which of that one's points have a neighbour there. */
+std::array<BrickBits, 27> pointsBesideBricks()
 {
-  std::array<bool, 27> ends{};
-  for (int point = 0; point < 27; ++point)
+  std::array<BrickBits, 27> beside{};
+  const auto touches = [](int x, int side) { return side == 1 || x == (side == 0 ? 0 : BrickField::BrickSize - 1); };
+  for (std::uint64_t n = 0; n < BrickField::BrickPoints; ++n)
   {
-    for (int n = 0; n < 27; ++n)
+    const LatticePoint p = fromMorton(n);
+    for (int brick = 0; brick < 27; ++brick)
     {
-      const auto step = [](int side, int towards) { return side == towards ? side : 1; }; // out of the brick at its own side alone
-      const int i = step(point % 3, n % 3), j = step(point / 3 % 3, n / 3 % 3), k = step(point / 9, n / 9);
-      ends[std::size_t(point)] = ends[std::size_t(point)] || !present[std::size_t(i + 3 * j + 9 * k)];
+      if (touches(p.i, brick % 3) && touches(p.j, brick / 3 % 3) && touches(p.k, brick / 9))
+      {
+        beside[std::size_t(brick)][n / 64] |= std::uint64_t(1) << n % 64;
+      }
+    }
+  }
+  return beside;
+}
+
+/** Which points of a brick have a neighbour in a brick that is not there. */
+BrickBits pointsWhereBricksEnd(std::uint64_t brick, BrickCursor& bricks)
+{
+  static const std::array<BrickBits, 27> beside = pointsBesideBricks();
+  const LatticePoint b = fromMorton(brick);
+  BrickBits ends{};
+  for (int n = 0; n < 27; ++n)
+  {
+    const LatticePoint q = neighbourOf(b, n);
+    const bool isThere = q.i >= 0 && q.j >= 0 && q.k >= 0 && bricks.find(BrickField::BrickPoints * mortonCode(q)) >= 0;
+    for (std::size_t block = 0; block < 8 && !isThere; ++block)
+    {
+      ends[block] |= beside[std::size_t(n)][block];
     }
   }
   return ends;
@@ -97,33 +118,21 @@ void pinWhereBricksEnd(const Octree& octree, BrickField& field, Execution& execu
   execution.forRanges(field.bricks().size(), 8,
     [&](std::size_t first, std::size_t last)
     {
+      BrickCursor bricks(field);
+      OctantCursor octants(octree);
+      const auto insideCells = [&](std::uint64_t block)
+      { return octants.cellsOfBlock(block, [](const Octree::Location& octant) { return octant.state == OctantState::Inside; }); };
       for (std::size_t brick = first; brick < last; ++brick)
       {
-        const LatticePoint b = fromMorton(field.bricks()[brick]);
-        std::array<bool, 27> present;
-        for (int n = 0; n < 27; ++n)
+        const BrickBits ends = pointsWhereBricksEnd(field.bricks()[brick], bricks);
+        for (std::size_t block = 0; block < 8; ++block)
         {
-          const LatticePoint q = neighbourOf(b, n);
-          present[n] = q.i >= 0 && q.j >= 0 && q.k >= 0 && field.findBrick(mortonCode(q)) >= 0;
-        }
-        if (std::find(present.begin(), present.end(), false) == present.end())
-        {
-          continue;
-        }
-        const auto ends = pointsWhereBricksEnd(present);
-        for (std::uint64_t local = 0; local < BrickField::BrickPoints; ++local)
-        {
-          const LatticePoint p = fromMorton(local);
-          const auto side = [](int x) { return x == 0 ? 0 : x < BrickField::BrickSize - 1 ? 1 : 2; };
-          if (!ends[std::size_t(side(p.i) + 3 * side(p.j) + 9 * side(p.k))])
+          float* values = &field.values()[brick * BrickField::BrickPoints + 64 * block];
+          const std::uint64_t positive = ends[block] != 0 ? positiveBits(values) : 0;
+          const std::uint64_t wrong = ends[block] != 0 ? ends[block] & (positive ^ pointsTouching(8 * field.bricks()[brick] + block, insideCells)) : 0;
+          for (std::uint64_t left = wrong; left != 0; left &= left - 1)
           {
-            continue;
-          }
-          float& value = field.values()[brick * BrickField::BrickPoints + local];
-          const LatticePoint at = fromMorton(field.code(brick * BrickField::BrickPoints + local));
-          if ((value > 0.0f) != octree.touchesInside(at))
-          {
-            value = value > 0.0f ? -0.5f : 0.5f;
+            values[lowestBit(left)] = (positive & left & (0 - left)) != 0 ? -0.5f : 0.5f;
           }
         }
       }

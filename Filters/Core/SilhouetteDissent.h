@@ -8,6 +8,7 @@
 #include "PreparedViews.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -26,14 +27,21 @@ struct SurvivorBox
 /** The shell must have corners. */
 inline SurvivorBox boxOfSurvivors(const CornerShell& shell)
 {
-  const LatticePoint any = fromMorton(shell.corners.front());
-  LatticePoint low = any, high = any;
+  // A code's bits of one coordinate are in the coordinates' order.
+  std::array<std::uint64_t, 3> along{spreadBits(~std::uint64_t(0)), 0, 0}, least, most;
+  along[1] = along[0] << 1;
+  along[2] = along[0] << 2;
+  least = along;
+  most = {0, 0, 0};
   for (const std::uint64_t corner : shell.corners)
   {
-    const LatticePoint p = fromMorton(corner);
-    low = {std::min(low.i, p.i), std::min(low.j, p.j), std::min(low.k, p.k)};
-    high = {std::max(high.i, p.i), std::max(high.j, p.j), std::max(high.k, p.k)};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      least[axis] = std::min(least[axis], corner & along[axis]);
+      most[axis] = std::max(most[axis], corner & along[axis]);
+    }
   }
+  const LatticePoint low = fromMorton(least[0] | least[1] | least[2]), high = fromMorton(most[0] | most[1] | most[2]);
   SurvivorBox box;
   box.centre = {(low.i + high.i) / 2, (low.j + high.j) / 2, (low.k + high.k) / 2};
   box.extent = std::max({high.i - low.i, high.j - low.j, high.k - low.k});

@@ -39,7 +39,7 @@ struct LabelledSolid
       this->octree.generations.push_back(std::move(generation));
     }
     const auto cells = leafCells(this->octree, OctantState::Intersection);
-    this->field = BrickField(this->octree.lattice, cells, 0);
+    this->field = BrickField(this->octree.lattice, cells, 0, this->execution);
     for (std::size_t n = 0; n < this->field.size(); ++n)
     {
       this->field.values()[n] = float(value(fromMorton(this->field.code(n))));
