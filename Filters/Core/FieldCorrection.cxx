@@ -308,6 +308,10 @@ private:
         for (std::size_t i = 0; i < near.size() && !allAtMost(greatest, -far); ++i)
         {
           const auto& [view, region] = near[i];
+          if (i + 1 < near.size())
+          {
+            this->Views.fetch(this->Views.observed(near[i + 1].view), near[i + 1].region);
+          }
           this->Views.insideBlock(view, lowest, region, { { this->Views.observed(view), distance } });
           keepLeast(distance, kept.data(), rank);
         }
@@ -387,6 +391,11 @@ private:
         for (std::size_t i = 0; i < near.size(); ++i)
         {
           const auto& [view, region] = near[i];
+          if (i + 1 < near.size())
+          {
+            this->Views.fetch(maps[near[i + 1].view], near[i + 1].region);
+            this->Views.fetch(this->Views.observed(near[i + 1].view), near[i + 1].region);
+          }
           this->Views.insideBlock(
             view, lowest, region, { { maps[view], &own[i * BlockPoints] }, { this->Views.observed(view), &seen[i * BlockPoints] } });
         }

@@ -81,6 +81,36 @@ SILHOUETTE_VECTORISED void placeBlock(const BlockProjection& block, const BlockO
   }
 }
 
+constexpr int Corners = 8; ///< of a cube
+
+struct CornerPlaces
+{
+  double u[Corners], v[Corners], W[Corners];
+};
+
+/** Where the corners of a cube fall. */
+SILHOUETTE_VECTORISED void placeCorners(const LatticeProjection& projection, const HomogeneousPixel& lowest, double side, CornerPlaces& places)
+{
+  static constexpr double along[3][Corners] = { { 0, 1, 0, 1, 0, 1, 0, 1 }, { 0, 0, 1, 1, 0, 0, 1, 1 }, { 0, 0, 0, 0, 1, 1, 1, 1 } };
+  double steps[3][3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int row = 0; row < 3; ++row)
+    {
+      steps[axis][row] = side * projection.step[axis][row];
+    }
+  }
+  for (int n = 0; n < Corners; ++n)
+  {
+    const double i = along[0][n], j = along[1][n], k = along[2][n];
+    const double W = lowest.W + ((steps[0][2] * i + steps[1][2] * j) + steps[2][2] * k);
+    const double inverse = 1.0 / W;
+    places.W[n] = W;
+    places.u[n] = (lowest.U + ((steps[0][0] * i + steps[1][0] * j) + steps[2][0] * k)) * inverse;
+    places.v[n] = (lowest.V + ((steps[0][1] * i + steps[1][1] * j) + steps[2][1] * k)) * inverse;
+  }
+}
+
 /** The samples of a map around each of some places, of which it has all four. */
 struct BlockSamples
 {
@@ -254,22 +284,13 @@ FieldViews::Region FieldViews::region(int view, const LatticePoint& lowest, int 
 {
   constexpr double guard = 1e-3; // px: more than the corners' places and the points' are rounded by
   const LatticeProjection& projection = this->OnLattice[view];
-  const double infinity = std::numeric_limits<double>::infinity();
-  Region region{ infinity, -infinity, infinity, -infinity, infinity };
-  for (int n = 0; n < 8; ++n)
-  {
-    const LatticePoint o = cornerOffset(n);
-    const HomogeneousPixel h =
-      projection({ lowest.i + (size - 1) * o.i, lowest.j + (size - 1) * o.j, lowest.k + (size - 1) * o.k });
-    if (!(h.W > projection.minimumDepth))
-    {
-      return {};
-    }
-    const double inverse = 1.0 / h.W, u = h.U * inverse, v = h.V * inverse;
-    region = { std::min(region.firstU, u - guard), std::max(region.lastU, u + guard), std::min(region.firstV, v - guard),
-      std::max(region.lastV, v + guard), std::min(region.octantsPerPixel, 0.999 * h.W * this->DepthScale[view]) };
-  }
-  return region;
+  CornerPlaces corners;
+  placeCorners(projection, projection(lowest), size - 1, corners);
+  const auto u = std::minmax_element(corners.u, corners.u + Corners), v = std::minmax_element(corners.v, corners.v + Corners);
+  const double nearest = *std::min_element(corners.W, corners.W + Corners);
+  return nearest > projection.minimumDepth
+    ? Region{ *u.first - guard, *u.second + guard, *v.first - guard, *v.second + guard, 0.999 * nearest * this->DepthScale[view] }
+    : Region{};
 }
 
 void FieldViews::insideBlock(
@@ -295,6 +316,26 @@ void FieldViews::insideBlock(
       inside[n] = this->inside(map, this->place(view, lowest + fromMorton(std::uint64_t(n))));
     }
   }
+}
+
+void FieldViews::fetch(const DistanceMap& map, const Region& region) const
+{
+#if defined(__GNUC__)
+  if (region.octantsPerPixel > 0.0 && hasSamplesAround(map, region))
+  {
+    const auto sampleOf = [&](double px, int first) { return int((px - first) * map.samplesPerPixel); };
+    const int left = sampleOf(region.firstU, map.left), right = sampleOf(region.lastU, map.left) + 1;
+    for (int row = sampleOf(region.firstV, map.top); row <= sampleOf(region.lastV, map.top) + 1; ++row)
+    {
+      const float* samples = &map.value[std::size_t(row) * std::size_t(map.columns)];
+      __builtin_prefetch(samples + left);
+      __builtin_prefetch(samples + right);
+    }
+  }
+#else
+  (void)map;
+  (void)region;
+#endif
 }
 
 std::vector<ImageCamera> FieldViews::cameras(const std::vector<int>& views) const

@@ -82,6 +82,8 @@ public:
   };
   /** inside() of the places of a block's points, to 1e-4 octants, in each of some maps of the view. `region` is that of the block. */
   void insideBlock(int view, const LatticePoint& lowest, const Region& region, std::initializer_list<BlockQuestion> questions) const;
+  /** insideBlock() of this region and map comes soon: what it reads may be fetched meanwhile. */
+  void fetch(const DistanceMap& map, const Region& region) const;
   /** Is inside() the whole reach for all points of a region? May say no where it is. */
   bool wholeReach(const DistanceMap& map, const Region& region) const
   {
