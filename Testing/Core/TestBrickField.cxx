@@ -65,8 +65,9 @@ std::vector<std::uint64_t> sphereCells(const Lattice& lattice, const Vector3& ce
 
 BrickField sphereField(int depth, const Vector3& centre, double radius, int margin = 3)
 {
+  Execution execution;
   const Lattice lattice = latticeOf(depth);
-  BrickField field(lattice, sphereCells(lattice, centre, radius), margin);
+  BrickField field(lattice, sphereCells(lattice, centre, radius), margin, execution);
   fill(field, [&](const LatticePoint& p) { return radius - (Vector3(p.i, p.j, p.k) - centre).norm(); });
   return field;
 }
@@ -75,6 +76,7 @@ BrickField sphereField(int depth, const Vector3& centre, double radius, int marg
 
 TEST(BrickField, HoldsEveryPointNearItsCellsAndNoOtherBrick)
 {
+  Execution execution;
   Random random(1);
   for (const int depth : { 1, 2, 3, 4, 6 })
   {
@@ -82,7 +84,7 @@ TEST(BrickField, HoldsEveryPointNearItsCellsAndNoOtherBrick)
     for (const int margin : { 0, 1, 3, 4, 9, 20 })
     {
       const auto cells = randomCells(lattice, std::min(5, 1 << 3 * depth), random);
-      const BrickField field(lattice, cells, margin);
+      const BrickField field(lattice, cells, margin, execution);
       std::set<std::uint64_t> needed;
       const int n = lattice.cells();
       for (const std::uint64_t cell : cells)
@@ -103,13 +105,14 @@ TEST(BrickField, HoldsEveryPointNearItsCellsAndNoOtherBrick)
       EXPECT_EQ(field.size(), needed.size() * BrickField::BrickPoints);
     }
   }
-  EXPECT_EQ(BrickField(latticeOf(5), {}, 3).size(), 0u);
+  EXPECT_EQ(BrickField(latticeOf(5), {}, 3, execution).size(), 0u);
 }
 
 TEST(BrickField, FindsItsPointsAndNoOthers)
 {
+  Execution execution;
   Random random(2);
-  const BrickField field(latticeOf(6), randomCells(latticeOf(6), 4, random), 2);
+  const BrickField field(latticeOf(6), randomCells(latticeOf(6), 4, random), 2, execution);
   const std::set<std::uint64_t> bricks(field.bricks().begin(), field.bricks().end());
   for (std::uint64_t brick = 0; brick < 729; ++brick)
   {
@@ -150,7 +153,7 @@ TEST(BrickField, SmoothingKeepsCubicFunctionsAwayFromMissingBricks)
   }
   for (const double sigma : { 0.3, 1.0, 2.5, 3.2 })
   {
-    BrickField field(lattice, cells, 0);
+    BrickField field(lattice, cells, 0, execution);
     const auto cubic = [](const LatticePoint& p)
     {
       const double x = p.i / 32.0 - 1.0, y = p.j / 32.0 - 1.0, z = p.k / 32.0 - 1.0; // a plain Gaussian of 1 octant would change y^2 by 0.001
@@ -184,7 +187,7 @@ TEST(BrickField, SmoothingHasNoSecondMomentAndReducesNoise)
 {
   Execution execution;
   const Lattice lattice = latticeOf(5);
-  BrickField field(lattice, allCells(lattice), 0);
+  BrickField field(lattice, allCells(lattice), 0, execution);
   const LatticePoint middle{ 16, 15, 17 };
   fill(field, [&](const LatticePoint& p) { return p == middle ? 1000.0 : 0.0; });
   field.smooth(1.3, execution);
@@ -234,7 +237,7 @@ TEST(BrickField, MixedCellsAreThoseWithCornersOfBothSigns)
   for (const int depth : { 2, 3, 5 })
   {
     const Lattice lattice = latticeOf(depth);
-    BrickField field(lattice, randomCells(lattice, 3, random), 1);
+    BrickField field(lattice, randomCells(lattice, 3, random), 1, execution);
     // Rare signs, so that most cells are not mixed, and zeros, which are outside.
     fill(field, [&](const LatticePoint&) { return random.below(9) ? (random.below(3) ? -1.0 : 0.0) : 0.5; });
     std::vector<std::uint64_t> expected;

@@ -65,30 +65,14 @@ TEST(CornerEffects, FollowTheLabelsAndTheComponents)
   EXPECT_EQ(effects.of(between, scene.components), CornerEffect::Otherwise);
 }
 
-/** Looking ahead changes no answer. */
-TEST(CornerEffects, LookingAheadDecidesNothing)
+/** Support is asked for among several, and what they cover only where that is equal. */
+TEST(CornerEffects, OfEqualsTheBestHasMostSupportThenCoversMostThenComesFirst)
 {
-  Scene scene;
-  const auto& shell = scene.solid.labels->shell();
-  std::vector<std::uint32_t> lost;
-  for (std::uint32_t cell = 0; cell < shell.cells.size(); ++cell)
-  {
-    const auto& corners = shell.cellCorners[cell];
-    if (std::none_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return scene.solid.labels->inside()[c] != 0; }))
-    {
-      lost.push_back(cell);
-    }
-  }
-  CornerEffects ahead(*scene.solid.labels, nullptr), plain(*scene.solid.labels, nullptr);
-  ahead.lookAhead(lost, scene.solid.execution);
-  std::size_t asked = 0;
-  for (std::uint32_t c = 0; c < shell.corners.size(); ++c)
-  {
-    if (!scene.solid.labels->inside()[c] && !scene.solid.octree.lattice.onBorder(fromMorton(shell.corners[c])))
-    {
-      ASSERT_EQ(ahead.of(c, scene.components), plain.of(c, scene.components)) << c;
-      ++asked;
-    }
-  }
-  EXPECT_GT(asked, 10000u);
+  const std::uint32_t equals[] = { 4, 1, 3, 2 };
+  const auto best = [&](std::vector<float> supports, std::vector<int> covers, std::size_t count = 4)
+  { return bestOfEquals(equals, count, [&](std::uint32_t c) { return supports.at(c); }, [&](std::uint32_t c) { return covers.at(c); }); };
+  EXPECT_EQ(best({}, {}, 1), 4u) << "nothing is asked";
+  EXPECT_EQ(best({ 0.0f, -1.0f, -0.5f, -2.0f, -3.0f }, {}), 2u) << "no cover is asked for";
+  EXPECT_EQ(best({ 0.0f, -1.0f, -1.0f, -1.0f, -3.0f }, { 0, 5, 5, 7, 9 }), 3u);
+  EXPECT_EQ(best({ 0.0f, -1.0f, -1.0f, -1.0f, -1.0f }, { 0, 6, 6, 6, 6 }), 1u);
 }

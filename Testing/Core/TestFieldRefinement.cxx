@@ -37,8 +37,9 @@ std::vector<std::uint64_t> cellsNear(const Lattice& lattice, const Function& fun
 
 BrickField fieldOf(int depth, const Function& function, int margin)
 {
+  Execution execution;
   const Lattice lattice = latticeOf(depth);
-  BrickField field(lattice, cellsNear(lattice, function, 1.0), margin);
+  BrickField field(lattice, cellsNear(lattice, function, 1.0), margin, execution);
   for (std::size_t n = 0; n < field.size(); ++n)
   {
     const LatticePoint p = fromMorton(field.code(n));
@@ -128,7 +129,7 @@ TEST(FieldRefinement, IsGivenAroundTheSurfaceAndTheCellsAskedForAsFarAsThereIsAF
   EXPECT_LT(fine.size(), 30 * coarse.size()); // of 64 times as many in all
   const std::uint64_t within = mortonCode({ 61, 64, 116 }), nowhere = mortonCode({ 127, 127, 127 });
   ASSERT_LT(fine.find(within), 0);
-  const BrickField wider = refinedField(coarse, 2, { nowhere, within }, 0, execution);
+  const BrickField wider = refinedField(coarse, 2, { within, nowhere }, 0, execution);
   EXPECT_GE(wider.find(within), 0);
   EXPECT_LT(wider.find(nowhere), 0);
 }

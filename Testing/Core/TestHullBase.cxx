@@ -18,6 +18,7 @@ namespace
 /** A field around a surface that is given in a lattice of 32 cells a side; the field's may have a generation more. */
 BrickField fieldOf(const std::function<double(const Vector3&)>& surface, int generations = 5)
 {
+  Execution execution;
   const double finer = double(1 << (generations - 5));
   const auto depth = [&](const Vector3& p) { return finer * surface(p / finer); };
   const Lattice lattice{ { Vector3(-1.0, -2.0, 0.5), 2.0 }, generations };
@@ -29,7 +30,7 @@ BrickField fieldOf(const std::function<double(const Vector3&)>& surface, int gen
       cells.push_back(cell);
     }
   }
-  BrickField field(lattice, cells, 3);
+  BrickField field(lattice, cells, 3, execution);
   for (std::size_t n = 0; n < field.size(); ++n)
   {
     field.values()[n] = float(depth(toVector(fromMorton(field.code(n)))));

@@ -97,14 +97,17 @@ TEST(LatticeLabels, OfManyPointsAtOnceAreThoseOfEach)
       }
     }
   }
-  BrickField field(scene.octree.lattice, { mortonCode({ 9, 17, 15 }), mortonCode({ 20, 3, 30 }) }, 5);
+  BrickField field(scene.octree.lattice, { mortonCode({ 9, 17, 15 }), mortonCode({ 20, 3, 30 }) }, 5, scene.execution);
   Random random(8);
   for (float& value : field.values())
   {
     value = float(random.uniform(-1.0, 1.0));
   }
   const LatticeLabels byField(scene.octree, scene.shell, field, scene.execution);
-  for (const LatticeLabels* labels : { &std::as_const(voted), &byField })
+  const LatticeLabels blocksVoted = voted, blocksByField = byField;
+  blocksVoted.blocks(scene.execution);
+  blocksByField.blocks(scene.execution);
+  for (const LatticeLabels* labels : { &std::as_const(voted), &byField, &blocksVoted, &blocksByField })
   {
     std::size_t inside = 0;
     for (std::uint64_t block = 0; block <= mortonCode({ 33, 33, 33 }) / 64; ++block)

@@ -128,7 +128,7 @@ TEST(LatticeRegions, CavitiesOfAFieldThatReachesIntoBackgroundOctantsAgreeWithFl
   {
     // A ball, larger than what was carved, whose rind has holes: some are cavities, some reach the world beyond.
     const std::vector<std::uint64_t> leaves = leafCells(octree, OctantState::Intersection);
-    BrickField field(octree.lattice, leaves, 8);
+    BrickField field(octree.lattice, leaves, 8, execution);
     for (std::size_t at = 0; at < field.size(); ++at)
     {
       const LatticePoint p = fromMorton(field.code(at));

@@ -244,7 +244,7 @@ TEST(RobustLabels, AFieldsRegionWithoutASurvivorIsDropped)
   { return radius - (Vector3(p.i, p.j, p.k) - Vector3(i, j, k)).norm(); };
   const double radius = 0.55 / lattice.leafEdge();
   CorrectedCapture capture;
-  capture.correction.field = BrickField(lattice, everywhere, 0, execution);
+  capture.correction.field = BrickField(lattice, everywhere, 0, clean.execution);
   BrickField& field = *capture.correction.field;
   for (std::size_t n = 0; n < field.size(); ++n)
   {
@@ -279,7 +279,7 @@ TEST(RobustLabels, AFieldThatKnowsNothingOfTheObjectLosesNoSurvivor)
   for (const int kind : { 0, 1 })
   {
     CorrectedCapture capture;
-    capture.correction.field = BrickField(clean.octree.lattice, some, 3, execution);
+    capture.correction.field = BrickField(clean.octree.lattice, some, 3, clean.execution);
     BrickField& field = *capture.correction.field;
     for (std::size_t n = 0; n < field.size(); ++n)
     {

@@ -3,8 +3,16 @@
 
 #include "CarvingTestCaptures.h"
 #include "LabelledSolids.h"
+#include "NarrowOutside.h"
+#include "SimplePoint.h"
+#include "UnionFind.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
 
 using namespace silhouette;
 using namespace silhouette::test;
@@ -28,7 +36,186 @@ std::int64_t genusAfter(LabelledSolid& solid, const TunnelFillingOptions& option
   return surface.genus.value_or(-1);
 }
 
+/** tunnelWalls() where no loop is too long: one narrow point after another, and what is connected flooded anew for each. */
+class OneByOne
+{
+public:
+  OneByOne(LabelledSolid& solid, int width)
+    : Solid(solid)
+    , Side(solid.octree.lattice.cells() + 3)
+    , IsWide(std::size_t(Side * Side * Side), true)
+  {
+    const auto narrow = NarrowOutside(*solid.labels, width, solid.execution).points();
+    for (int n = 0; n < this->Side * this->Side * this->Side; ++n)
+    {
+      const LatticePoint p{ n % this->Side - 1, n / this->Side % this->Side - 1, n / this->Side / this->Side - 1 };
+      const bool inside = std::min({ p.i, p.j, p.k }) >= 0 && solid.labels->insideAt(p);
+      const bool isNarrow = std::min({ p.i, p.j, p.k }) >= 0 && std::binary_search(narrow.begin(), narrow.end(), mortonCode(p));
+      this->IsWide[std::size_t(n)] = !inside && !isNarrow;
+    }
+    for (const std::uint64_t code : narrow)
+    {
+      this->Narrow.insert(code);
+      this->push(code);
+    }
+  }
+
+  std::vector<std::uint64_t> walls()
+  {
+    while (!this->Front.empty())
+    {
+      const std::uint64_t code = this->Front.begin()->second;
+      this->Front.erase(this->Front.begin());
+      if (this->Narrow.count(code) != 0 && this->mayTake(fromMorton(code)))
+      {
+        this->Narrow.erase(code);
+        this->IsWide[this->place(fromMorton(code))] = true;
+        for (int n = 0; n < 27; ++n)
+        {
+          this->push(mortonCode(neighbourOf(fromMorton(code), n)));
+        }
+      }
+    }
+    const std::vector<std::uint64_t> left(this->Narrow.begin(), this->Narrow.end());
+    UnionFind together(left.size());
+    for (std::uint32_t a = 0; a < left.size(); ++a)
+    {
+      for (std::uint32_t b = 0; b < a; ++b)
+      {
+        const LatticePoint p = fromMorton(left[a]), q = fromMorton(left[b]);
+        if (std::max({ std::abs(p.i - q.i), std::abs(p.j - q.j), std::abs(p.k - q.k) }) <= 1)
+        {
+          together.unite(a, b);
+        }
+      }
+    }
+    std::map<std::uint32_t, std::vector<std::uint64_t>> groups;
+    for (std::uint32_t n = 0; n < left.size(); ++n)
+    {
+      groups[together.find(n)].push_back(left[n]);
+    }
+    std::vector<std::uint64_t> walls;
+    for (const auto& [first, wall] : groups)
+    {
+      if (this->eulerRise(wall) > 0)
+      {
+        walls.insert(walls.end(), wall.begin(), wall.end());
+      }
+    }
+    std::sort(walls.begin(), walls.end());
+    return walls;
+  }
+
+  std::size_t floods = 0;
+
+private:
+  std::size_t place(const LatticePoint& p) const { return std::size_t((p.i + 1) + this->Side * ((p.j + 1) + this->Side * (p.k + 1))); }
+
+  void push(std::uint64_t code)
+  {
+    if (this->Narrow.count(code) != 0)
+    {
+      const std::ptrdiff_t corner = this->Solid.labels->shell().find(code);
+      this->Front.insert({ corner >= 0 ? this->Solid.labels->support()[std::size_t(corner)] : -1e30f, code });
+    }
+  }
+
+  bool mayTake(const LatticePoint& p)
+  {
+    Neighbourhood labels;
+    for (int n = 0; n < 27; ++n)
+    {
+      labels[std::size_t(n)] = n != 13 && !this->IsWide[this->place(neighbourOf(p, n))];
+    }
+    const int touching = topologicalNumbers(labels).outside;
+    if (touching <= 1)
+    {
+      return touching == 1;
+    }
+    ++this->floods;
+    UnionFind sets(this->IsWide.size());
+    const int steps[3] = { 1, this->Side, this->Side * this->Side };
+    for (std::size_t n = 0; n < this->IsWide.size(); ++n)
+    {
+      for (const int step : steps)
+      {
+        const bool hasNext = n / std::size_t(step) % std::size_t(this->Side) + 1 < std::size_t(this->Side);
+        if (hasNext && this->IsWide[n] && this->IsWide[n + std::size_t(step)])
+        {
+          sets.unite(std::uint32_t(n), std::uint32_t(n + std::size_t(step)));
+        }
+      }
+    }
+    std::set<std::uint32_t> roots;
+    for (const int n : EdgeNeighbours)
+    {
+      const std::size_t other = this->place(neighbourOf(p, n));
+      if (this->IsWide[other])
+      {
+        roots.insert(sets.find(std::uint32_t(other)));
+      }
+    }
+    return int(roots.size()) == touching;
+  }
+
+  int eulerRise(const std::vector<std::uint64_t>& wall) const
+  {
+    std::set<std::uint64_t> added;
+    int rise = 0;
+    for (const std::uint64_t code : wall)
+    {
+      Neighbourhood around;
+      for (int n = 0; n < 27; ++n)
+      {
+        const LatticePoint q = neighbourOf(fromMorton(code), n);
+        around[std::size_t(n)] = this->Solid.labels->insideAt(q) || added.count(mortonCode(q)) != 0;
+      }
+      rise += eulerChange(around);
+      added.insert(code);
+    }
+    return rise;
+  }
+
+  LabelledSolid& Solid;
+  int Side; ///< points, with one beyond the lattice at either end
+  std::vector<bool> IsWide;
+  std::set<std::uint64_t> Narrow;
+  std::set<std::pair<float, std::uint64_t>> Front; ///< least support first, then the first in lattice order
+};
+
 } // namespace
+
+TEST(TunnelFilling, IsThatOfOnePointAfterAnother)
+{
+  std::size_t filled = 0, floods = 0;
+  for (int trial = 0; trial < 16; ++trial)
+  {
+    Random random(trial);
+    std::vector<std::array<double, 4>> balls;
+    for (int n = 0; n < 24 + 4 * trial; ++n)
+    {
+      balls.push_back({ random.uniform(4.0, 28.0), random.uniform(4.0, 28.0), random.uniform(4.0, 28.0), random.uniform(1.5, 3.5) });
+    }
+    LabelledSolid solid(5,
+      [&](const LatticePoint& p)
+      {
+        double most = -9.0;
+        for (const auto& [i, j, k, radius] : balls)
+        {
+          most = std::max(most, radius - std::hypot(p.i - i, p.j - j, p.k - k));
+        }
+        return most;
+      });
+    const int width = 1 + trial % 4;
+    const auto walls = tunnelWalls(*solid.labels, { true, width, 1000.0 }, solid.execution);
+    OneByOne other(solid, width);
+    EXPECT_EQ(walls, other.walls()) << trial;
+    filled += walls.size();
+    floods += other.floods;
+  }
+  EXPECT_GT(filled, 50u);
+  EXPECT_GT(floods, 50u);
+}
 
 TEST(TunnelFilling, FillsNarrowTunnelsAndNoOthers)
 {
