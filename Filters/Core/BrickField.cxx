@@ -2,6 +2,7 @@
 #include "BrickField.h"
 
 #include "Bits.h"
+#include "BlockBits.h"
 #include "FirstTouch.h"
 #include "LatticeSurface.h"
 
@@ -71,76 +72,66 @@ std::vector<float> keepingKernel(double sigma)
   return kernel;
 }
 
-/** For the points of a brick and those one beyond: where the field is positive, where not, where it has no value. */
-class BrickSigns
+/** Where a field is positive, by blocks of 4 x 4 x 4 points: eight of each brick, a bit a point. */
+class BlockSigns
 {
 public:
-  explicit BrickSigns(const BrickField& field)
+  BlockSigns(const BrickField& field, Execution& execution)
     : Field(field)
+    , Positive(field.size() / 64)
   {
-    for (std::size_t n = 0; n < BrickField::BrickPoints; ++n)
-    {
-      const LatticePoint p = fromMorton(n);
-      this->Place[n] = std::uint16_t(p.i + Row * (p.j + Row * p.k));
-    }
+    execution.forRanges(this->Positive.size(), 256,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t block = first; block < last; ++block)
+        {
+          this->Positive[block] = positiveBits(&field.values()[64 * block]);
+        }
+      });
   }
 
-  /** False where no cell has values of both signs. May say true where none does. */
-  bool read(std::size_t brick)
+  /** Cells of the n-th block that have values at all corners, of both signs; a bit each, by their lowest corners. `bricks`: of the field. */
+  std::uint64_t mixedCells(std::size_t n, BrickCursor& bricks) const
   {
-    const LatticePoint b = fromMorton(this->Field.bricks()[brick]);
-    const float* own = &this->Field.values()[brick * BrickField::BrickPoints];
-    std::uint8_t any = 0;
-    for (std::size_t n = 0; n < BrickField::BrickPoints; ++n)
+    const LatticePoint block = fromMorton(this->Field.code(64 * n) / 64);
+    std::array<std::uint64_t, 8> signs, known; // of the block and those ahead of it, then of the points one step ahead on the axes of their numbers
+    bool anyPositive = false, anyOther = false;
+    for (int ahead = 0; ahead < 8; ++ahead)
     {
-      const std::uint8_t sign = own[n] > 0.0f ? Positive : Other;
-      this->Signs[this->Place[n]] = sign;
-      any |= sign;
+      const std::ptrdiff_t other = ahead == 0 ? std::ptrdiff_t(64 * n) : bricks.find(64 * mortonCode(block + cornerOffset(ahead)));
+      known[std::size_t(ahead)] = other >= 0 ? ~std::uint64_t(0) : 0;
+      signs[std::size_t(ahead)] = other >= 0 ? this->Positive[std::size_t(other) / 64] : 0;
+      anyPositive = anyPositive || signs[std::size_t(ahead)] != 0;
+      anyOther = anyOther || (~signs[std::size_t(ahead)] & known[std::size_t(ahead)]) != 0;
     }
-    for (int n = 1; n < 8; ++n)
+    if (!(anyPositive && anyOther))
     {
-      const LatticePoint o = cornerOffset(n);
-      const std::ptrdiff_t other = this->Field.findBrick(mortonCode(b + o));
-      const float* values = other < 0 ? nullptr : &this->Field.values()[std::size_t(other) * BrickField::BrickPoints];
-      const int size = BrickField::BrickSize;
-      for (int k = o.k * size; k < size + o.k; ++k)
+      return 0;
+    }
+    std::uint64_t all = ~std::uint64_t(0), any = 0, allKnown = ~std::uint64_t(0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (std::size_t corner = 0; corner < 8; ++corner)
       {
-        for (int j = o.j * size; j < size + o.j; ++j)
+        if (corner >> axis & 1)
         {
-          for (int i = o.i * size; i < size + o.i; ++i)
-          {
-            const std::uint8_t sign =
-              !values ? Missing : values[mortonCode({ i % size, j % size, k % size })] > 0.0f ? Positive : Other;
-            this->Signs[i + Row * (j + Row * k)] = sign;
-            any |= sign;
-          }
+          signs[corner] = fromAhead(signs[corner ^ std::size_t(1) << axis], signs[corner], axis);
+          known[corner] = fromAhead(known[corner ^ std::size_t(1) << axis], known[corner], axis);
         }
       }
     }
-    return (any & (Positive | Other)) == (Positive | Other);
-  }
-
-  /** Does the cell whose lowest corner is the n-th point have all values, of both signs? */
-  bool mixed(std::size_t n) const
-  {
-    const std::uint8_t* s = &this->Signs[this->Place[n]];
-    const int all = s[0] | s[1] | s[Row] | s[Row + 1] | s[Row * Row] | s[Row * Row + 1] | s[Row * Row + Row] |
-      s[Row * Row + Row + 1];
-    return all == (Positive | Other);
+    for (std::size_t corner = 0; corner < 8; ++corner)
+    {
+      all &= signs[corner];
+      any |= signs[corner];
+      allKnown &= known[corner];
+    }
+    return any & ~all & allKnown;
   }
 
 private:
-  static constexpr int Row = BrickField::BrickSize + 1;
-  enum : std::uint8_t
-  {
-    Positive = 1,
-    Other = 2,
-    Missing = 4
-  };
-
   const BrickField& Field;
-  std::array<std::uint16_t, BrickField::BrickPoints> Place;
-  std::array<std::uint8_t, Row * Row * Row> Signs;
+  std::vector<std::uint64_t> Positive;
 };
 
 /** Of the first point of a line along an axis. */
@@ -388,31 +379,27 @@ void BrickField::smooth(double sigma, Execution& execution)
 
 std::vector<std::uint64_t> BrickField::mixedCells(Execution& execution) const
 {
-  std::vector<std::vector<std::uint64_t>> found(this->Bricks.size());
-  execution.forRanges(this->Bricks.size(), 16,
+  const BlockSigns signs(*this, execution);
+  std::vector<std::uint64_t> mixed(this->size() / 64), cells;
+  execution.forRanges(mixed.size(), 128,
     [&](std::size_t first, std::size_t last)
     {
-      BrickSigns signs(*this);
-      for (std::size_t brick = first; brick < last; ++brick)
+      BrickCursor bricks(*this);
+      for (std::size_t block = first; block < last; ++block)
       {
-        if (!signs.read(brick))
-        {
-          continue;
-        }
-        for (std::uint64_t local = 0; local < BrickPoints; ++local)
-        {
-          const std::uint64_t cell = this->Bricks[brick] * BrickPoints + local;
-          if (signs.mixed(local) && this->TheLattice.hasCell(fromMorton(cell)))
-          {
-            found[brick].push_back(cell);
-          }
-        }
+        mixed[block] = signs.mixedCells(block, bricks);
       }
     });
-  std::vector<std::uint64_t> cells;
-  for (const auto& some : found)
+  for (std::size_t block = 0; block < mixed.size(); ++block)
   {
-    cells.insert(cells.end(), some.begin(), some.end());
+    for (std::uint64_t left = mixed[block]; left != 0; left &= left - 1)
+    {
+      const std::uint64_t cell = this->code(64 * block) + std::uint64_t(lowestBit(left));
+      if (this->TheLattice.hasCell(fromMorton(cell)))
+      {
+        cells.push_back(cell);
+      }
+    }
   }
   return cells;
 }

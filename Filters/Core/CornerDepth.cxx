@@ -141,17 +141,26 @@ CornerDepth::CornerDepth(const Octree& octree, const LatticeViews& views, double
   }
 }
 
-double CornerDepth::operator()(const LatticePoint& p, OctantCursor& octants) const
+double CornerDepth::operator()(const LatticePoint& p, OctantCursor& octants, double least) const
 {
   std::vector<double> outside;
+  int beyond = 0;         // views that are farther away than `least` allows
+  double nearest = 0.0; // of these
   this->Undecided.around(p, octants).forEach(
     [&](int view)
     {
-      if (this->Views->vote(view, p) == Vote::Background)
+      if (beyond <= this->BackgroundVotes && this->Views->vote(view, p) == Vote::Background)
       {
         outside.push_back(this->outsideView(view, p));
+        const bool isBeyond = -outside.back() < least;
+        nearest = isBeyond && (beyond == 0 || outside.back() < nearest) ? outside.back() : nearest;
+        beyond += isBeyond;
       }
     });
+  if (beyond > this->BackgroundVotes)
+  {
+    return -nearest;
+  }
   if (int(outside.size()) <= this->BackgroundVotes)
   {
     return 0.0;

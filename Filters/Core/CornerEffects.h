@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -36,17 +37,18 @@ bool joinsComponents(const LatticePoint& p, const TopologicalNumbers& numbers, C
 
 /**
  * Of corners with equal effects, in ascending order of their numbers or not, the one with most support, which is asked for where there are several; of these the one that
- * covers most octants, which is asked for where supports are equal; of these the one with the least number.
+ * covers most octants, which is asked for where supports are equal; of these the one with the least number. `support(corner, least)` may tell anything between a
+ * support that is less than `least` and that.
  */
 template <typename Support, typename Covers>
 std::uint32_t bestOfEquals(const std::uint32_t* equals, std::size_t count, const Support& support, const Covers& covers)
 {
   std::uint32_t best = equals[0];
-  float most = count > 1 ? support(best) : 0.0f;
+  float most = count > 1 ? support(best, -std::numeric_limits<float>::infinity()) : 0.0f;
   for (std::size_t n = 1; n < count; ++n)
   {
     const std::uint32_t corner = equals[n];
-    const float own = support(corner);
+    const float own = support(corner, most);
     bool isBetter = own > most;
     if (own == most)
     {

@@ -263,22 +263,24 @@ private:
     return all;
   }
 
-  /** Shift the views towards the contours of the surface, then of the surface of the shifted views, and so on. */
+  /**
+   * Shift the views towards the contours of the surface, then of the surface of the shifted views, and so on. Where the field's lattice is coarser than the
+   * surface's, its own surface comes first: it has fewer triangles.
+   */
   void align(const std::vector<ContourResidual>& measured, Execution& execution)
   {
     for (int round = 0; round < this->Options.alignments; ++round)
     {
-      auto residuals = round == 0
-        ? this->completed(measured, execution)
-        : this->residuals(this->Least.contourMesh(execution), this->All, execution);
+      const bool isMeasured = round == 0 && this->Length.octants == 1.0;
+      if (!isMeasured)
+      {
+        this->findLeast(1, execution);
+      }
+      auto residuals = isMeasured ? this->completed(measured, execution) : this->residuals(this->Least.contourMesh(execution), this->All, execution);
       removeCommonShift(this->Views, this->All, residuals);
       for (const int view : this->All)
       {
         this->Views.addShift(view, residuals[view].shift);
-      }
-      if (round + 1 < this->Options.alignments)
-      {
-        this->findLeast(1, execution);
       }
       execution.checkpoint(0.5 * (round + 1) / this->Options.alignments);
     }

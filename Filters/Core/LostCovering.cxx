@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace silhouette
@@ -75,7 +77,6 @@ public:
 
 private:
   static constexpr std::uint32_t None = 0xffffffffu;
-  static constexpr float Unknown = 1.0f; ///< no depth is
 
   /** A corner of the cells; these are numbered in the shell's order. */
   struct Corner
@@ -85,7 +86,8 @@ private:
     bool inside = false;
     bool isKnown = false; ///< the effect
     CornerEffect effect = CornerEffect::Otherwise;
-    float support = Unknown;
+    float support = std::numeric_limits<float>::infinity(); ///< or more than that
+    bool isMeasured = false;                                 ///< it is the support
     Neighbourhood around{};
   };
 
@@ -208,7 +210,7 @@ private:
     {
       choice.isSure = this->Solid || choice.effect != CornerEffect::Otherwise; // it may join components
       choice.corner = bestOfEquals(
-        equals.data(), count, [&](std::uint32_t corner) { return this->support(corner); }, [&](std::uint32_t corner) { return this->covers(corner); });
+        equals.data(), count, [&](std::uint32_t corner, float least) { return this->support(corner, least); }, [&](std::uint32_t corner) { return this->covers(corner); });
     }
     return choice;
   }
@@ -235,12 +237,15 @@ private:
     return isSure;
   }
 
-  float support(std::uint32_t corner)
+  /** A corner's support, or where that is less than `least` anything between. */
+  float support(std::uint32_t corner, float least)
   {
     Corner& one = this->Corners[corner];
-    if (one.support == Unknown)
+    if (!one.isMeasured && one.support >= least)
     {
-      one.support = this->Depth ? float((*this->Depth)(this->point(corner), this->Octants)) : this->Labels.support()[one.number];
+      const float below = std::nextafter(least, -std::numeric_limits<float>::infinity()); // what rounds to `least` is no less
+      one.support = this->Depth ? float((*this->Depth)(this->point(corner), this->Octants, below)) : this->Labels.support()[one.number];
+      one.isMeasured = one.support >= least;
     }
     return one.support;
   }

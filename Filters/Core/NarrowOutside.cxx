@@ -15,23 +15,35 @@ namespace
 constexpr std::uint32_t Nowhere = 0xffffffffu;
 
 /** Blocks that hold cells with corners of both labels, ascending. */
-std::vector<std::uint64_t> mixedBlocks(const LatticeLabels& labels)
+std::vector<std::uint64_t> mixedBlocks(const LatticeLabels& labels, Execution& execution)
 {
+  constexpr std::size_t RangeSize = 1 << 14; // cells
   const auto& shell = labels.shell();
+  std::vector<std::vector<std::uint64_t>> ofRanges((shell.cells.size() + RangeSize - 1) / RangeSize);
+  execution.forRanges(ofRanges.size(), 1,
+    [&](std::size_t firstRange, std::size_t lastRange)
+    {
+      for (std::size_t cell = firstRange * RangeSize; cell < std::min(lastRange * RangeSize, shell.cells.size()); ++cell)
+      {
+        std::vector<std::uint64_t>& blocks = ofRanges[cell / RangeSize];
+        const std::uint64_t block = shell.cells[cell] >> 6;
+        if (!blocks.empty() && blocks.back() == block)
+        {
+          continue;
+        }
+        const auto& corners = shell.cellCorners[cell];
+        const std::uint8_t first = labels.inside()[corners[0]];
+        if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return labels.inside()[c] != first; }))
+        {
+          blocks.push_back(block);
+        }
+      }
+    });
   std::vector<std::uint64_t> blocks;
-  for (std::size_t cell = 0; cell < shell.cells.size(); ++cell)
+  for (const auto& some : ofRanges)
   {
-    const std::uint64_t block = shell.cells[cell] >> 6;
-    if (!blocks.empty() && blocks.back() == block)
-    {
-      continue;
-    }
-    const auto& corners = shell.cellCorners[cell];
-    const std::uint8_t first = labels.inside()[corners[0]];
-    if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return labels.inside()[c] != first; }))
-    {
-      blocks.push_back(block);
-    }
+    const bool isKnown = !some.empty() && !blocks.empty() && blocks.back() == some.front();
+    blocks.insert(blocks.end(), some.begin() + isKnown, some.end());
   }
   return blocks;
 }
@@ -58,7 +70,7 @@ std::vector<std::uint64_t> blocksNear(const std::vector<std::uint64_t>& blocks, 
 
 NarrowOutside::NarrowOutside(const LatticeLabels& labels, int width, Execution& execution)
   : Labels(&labels)
-  , Blocks(blocksNear(mixedBlocks(labels), width))
+  , Blocks(blocksNear(mixedBlocks(labels, execution), width))
 {
   this->Free = labels.insideOfBlocks(this->Blocks.codes(), execution);
   std::transform(this->Free.begin(), this->Free.end(), this->Free.begin(), [](std::uint64_t inside) { return ~inside; });

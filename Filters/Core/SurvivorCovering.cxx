@@ -108,7 +108,7 @@ private:
       }
     }
     return bestOfEquals(
-      equals.data(), count, [&](std::uint32_t corner) { return this->Effects.support(corner); }, [&](std::uint32_t corner) { return this->covers(corner); });
+      equals.data(), count, [&](std::uint32_t corner, float) { return this->Effects.support(corner); }, [&](std::uint32_t corner) { return this->covers(corner); });
   }
 
   /** Label a corner inside, of which the effect is known. */

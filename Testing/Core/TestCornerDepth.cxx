@@ -61,7 +61,7 @@ TEST(CornerDepth, IsTheDistanceToTheNearestObjectPixelInTheFarthestView)
     disturb(captured, kind, random);
     const PreparedViews prepared = prepareViews(captured);
     const LatticeViews views(prepared, Lattice{ unitCube(), 4 });
-    int between = 0;
+    int between = 0, fewer = 0;
     for (const int votes : { 0, 1, 3 })
     {
       const Octree octree = carveViews(prepared, unitCube(), 4, votes);
@@ -76,9 +76,13 @@ TEST(CornerDepth, IsTheDistanceToTheNearestObjectPixelInTheFarthestView)
         const double expected = depthByBruteForce(views, p, votes, reach);
         EXPECT_NEAR(depth(p, octants), expected, 1e-12) << kind << " " << votes << " " << p.i << " " << p.j << " " << p.k;
         between += expected < 0.0 && expected > -reach;
+        const double exact = depth(p, octants), least = random.uniform(-1.1 * reach, 0.1 * reach), told = depth(p, octants, least);
+        EXPECT_TRUE(exact >= least ? told == exact : told >= exact && told < least) << exact << ", asked for " << least << ", told " << told;
+        fewer += told != exact;
       }
     }
     EXPECT_GT(between, 60) << kind;
+    EXPECT_GT(fewer, 0) << kind;
   }
 }
 

@@ -70,7 +70,7 @@ TEST(CornerEffects, OfEqualsTheBestHasMostSupportThenCoversMostThenComesFirst)
 {
   const std::uint32_t equals[] = { 4, 1, 3, 2 };
   const auto best = [&](std::vector<float> supports, std::vector<int> covers, std::size_t count = 4)
-  { return bestOfEquals(equals, count, [&](std::uint32_t c) { return supports.at(c); }, [&](std::uint32_t c) { return covers.at(c); }); };
+  { return bestOfEquals(equals, count, [&](std::uint32_t c, float) { return supports.at(c); }, [&](std::uint32_t c) { return covers.at(c); }); };
   EXPECT_EQ(best({}, {}, 1), 4u) << "nothing is asked";
   EXPECT_EQ(best({ 0.0f, -1.0f, -0.5f, -2.0f, -3.0f }, {}), 2u) << "no cover is asked for";
   EXPECT_EQ(best({ 0.0f, -1.0f, -1.0f, -1.0f, -3.0f }, { 0, 5, 5, 7, 9 }), 3u);
