@@ -4,6 +4,7 @@
 #include "Bits.h"
 #include "BlockBits.h"
 #include "BlockRegions.h"
+#include "IndicesWhere.h"
 
 #include <algorithm>
 
@@ -13,15 +14,12 @@ namespace
 {
 
 /** The blocks of sorted codes of points. */
-std::vector<std::uint64_t> blocksOf(const std::vector<std::uint64_t>& points)
+std::vector<std::uint64_t> blocksOf(const std::vector<std::uint64_t>& points, Execution& execution)
 {
   std::vector<std::uint64_t> blocks;
-  for (const std::uint64_t point : points)
+  for (const std::int32_t n : indicesWhere(points.size(), 4096, execution, [&](std::size_t one) { return one == 0 || points[one - 1] >> 6 != points[one] >> 6; }))
   {
-    if (blocks.empty() || blocks.back() != point >> 6)
-    {
-      blocks.push_back(point >> 6);
-    }
+    blocks.push_back(points[std::size_t(n)] >> 6);
   }
   return blocks;
 }
@@ -96,7 +94,7 @@ std::uint64_t FarLabels::insideOfBlock(std::uint64_t block, OctantCursor& octant
 LabelBlocks::LabelBlocks(const CornerShell& shell, const FarLabels& far, Execution& execution)
   : TheLattice(far.octree().lattice)
 {
-  std::vector<std::uint64_t> blocks = united(blocksOf(shell.corners), subdividedBlocks(far.octree()));
+  std::vector<std::uint64_t> blocks = united(blocksOf(shell.corners, execution), subdividedBlocks(far.octree()));
   this->Blocks = BlockIndex(far.field() ? united(blocks, blocksOf(*far.field())) : std::move(blocks));
   this->Corners.resize(this->Blocks.size());
   this->FirstCorner.resize(this->Blocks.size());
