@@ -22,9 +22,10 @@ void appendRejected(const LatticeViews& views, const std::vector<std::uint64_t>&
   execution.forRanges(corners.size(), 1024,
                       [&](std::size_t first, std::size_t last)
                       {
+                        OnlyDissenter only(views);
                         for (std::size_t i = first; i < last; ++i)
                         {
-                          dissenter[i] = dissentAt(views, fromMorton(corners[i])).only;
+                          dissenter[i] = only.at(fromMorton(corners[i]));
                         }
                       });
   for (std::size_t i = 0; i < corners.size(); ++i)

@@ -64,8 +64,9 @@ inline std::vector<View> copyViews(const PreparedViews& views)
 /** Which views call a lattice point background, as far as need be known. */
 struct Dissent
 {
-  int only = -1; ///< the only one, or -1
-  int last = -1; ///< the last one that was asked
+  int only = -1;  ///< the only one, or -1
+  int last = -1;  ///< the last one that was asked
+  int first = -1; ///< the first one
 };
 
 /**
@@ -84,14 +85,40 @@ inline Dissent dissentAt(const LatticeViews& views, const LatticePoint& p)
     {
       if (dissent.last >= 0)
       {
-        return {-1, i};
+        return {-1, i, dissent.first};
       }
-      dissent.last = i;
+      dissent.first = dissent.last = i;
     }
   }
   dissent.only = 2 * object >= views.size() ? dissent.last : -1;
   return dissent;
 }
+
+/** Dissent::only of points near one another: two views that have called the last one background are asked first. */
+class OnlyDissenter
+{
+public:
+  explicit OnlyDissenter(const LatticeViews& views)
+    : Views(views)
+  {
+  }
+
+  int at(const LatticePoint& p)
+  {
+    const auto rejects = [&](int view) { return this->Views.vote(view, p) == Vote::Background; };
+    if (this->Last.first >= 0 && rejects(this->Last.first) && rejects(this->Last.last))
+    {
+      return -1;
+    }
+    const Dissent dissent = dissentAt(this->Views, p);
+    this->Last = dissent.first != dissent.last ? dissent : this->Last;
+    return dissent.only;
+  }
+
+private:
+  const LatticeViews& Views;
+  Dissent Last; ///< of the last point that two views rejected
+};
 
 /** The lattice refined until an octant in the middle of the survivors is a pixel or two. */
 inline Lattice pixelLattice(const LatticeViews& views, const SurvivorBox& box)

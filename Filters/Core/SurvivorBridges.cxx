@@ -122,15 +122,17 @@ std::vector<Bridge> bridgeSurvivors(const Octree& octree, const CornerShell& she
   }
   const std::vector<std::uint32_t> numbers = componentsOfCorners(shell, survivors, execution);
   std::vector<std::vector<std::uint32_t>> components; // by their first corners
-  std::unordered_map<std::uint32_t, std::size_t> places;
+  constexpr std::uint32_t nowhere = 0xffffffffu;
+  std::vector<std::uint32_t> places(survivors.size(), nowhere); // of each number its component
   for (std::uint32_t corner = 0; corner < numbers.size(); ++corner)
   {
-    const auto place = places.emplace(numbers[corner], components.size());
-    if (place.second)
+    std::uint32_t& place = places[numbers[corner]];
+    if (place == nowhere)
     {
+      place = std::uint32_t(components.size());
       components.emplace_back();
     }
-    components[place.first->second].push_back(corner);
+    components[place].push_back(corner);
   }
   std::stable_sort(components.begin(), components.end(),
     [](const auto& a, const auto& b) { return a.size() < b.size(); });
