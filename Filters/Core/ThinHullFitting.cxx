@@ -7,14 +7,12 @@
 #include "CoverageNear.h"
 #include "IndicesWhere.h"
 #include "IntersectionsNear.h"
-#include "MeshComponents.h"
-#include "UnionFind.h"
+#include "MovedVolumes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <optional>
 
 namespace silhouette
@@ -136,6 +134,7 @@ public:
     , Run(execution)
     , Cells(thin.shell, thin.surface)
     , Number(mesh.points.size(), -1)
+    , Volumes(mesh, this->Number, this->Original)
   {
     this->aim(solid, reach);
   }
@@ -229,13 +228,6 @@ private:
     this->Run.checkpoint(0.3);
   }
 
-  /** Where a point of the mesh was before any has moved. */
-  const Vector3& original(std::int32_t point) const
-  {
-    const std::int32_t m = this->Number[std::size_t(point)];
-    return m >= 0 ? this->Original[std::size_t(m)] : this->TheMesh.points[std::size_t(point)];
-  }
-
   void place(std::size_t m)
   {
     Vector3 p = this->Original[m];
@@ -279,10 +271,10 @@ private:
     Box box;
     for (const std::int32_t p : this->TheMesh.triangles[t])
     {
-      box.extend(this->original(p));
+      box.extend(this->Volumes.original(p));
       if (this->Number[std::size_t(p)] >= 0)
       {
-        box.extend(this->original(p) + this->Moves[std::size_t(this->Number[std::size_t(p)])]);
+        box.extend(this->Volumes.original(p) + this->Moves[std::size_t(this->Number[std::size_t(p)])]);
       }
     }
     return box;
@@ -401,117 +393,13 @@ private:
     return any;
   }
 
-  /** Six times a signed volume. */
-  struct Volume
-  {
-    double before = 0.0, now = 0.0;
-
-    double growth() const { return this->now - this->before; }
-  };
-
-  using Volumes = std::map<std::uint32_t, Volume>; ///< of components, by their first points
-
-  /** A triangle's share in that, seen from a point of the mesh. */
-  Volume sixfoldVolume(std::int32_t from, const Triangle& t) const
-  {
-    const auto product = [](const Vector3& o, const Vector3& a, const Vector3& b, const Vector3& c)
-    { return (a - o).cross(b - o).dot(c - o); };
-    const auto& points = this->TheMesh.points;
-    const auto isStill = [&](std::int32_t p) { return this->Number[std::size_t(p)] < 0; };
-    Volume volume;
-    volume.now = product(points[std::size_t(from)], points[t[0]], points[t[1]], points[t[2]]);
-    volume.before = isStill(from) && std::all_of(t.begin(), t.end(), isStill)
-      ? volume.now
-      : product(this->original(from), this->original(t[0]), this->original(t[1]), this->original(t[2]));
-    return volume;
-  }
-
-  /** Adds a triangle's share to its component's; the points of one component are measured from its first. */
-  void addVolume(const Triangle& t, Volumes& volumes)
-  {
-    const std::uint32_t first = this->Components.find(std::uint32_t(t[0]));
-    const Volume own = this->sixfoldVolume(std::int32_t(first), t);
-    Volume& volume = volumes[first];
-    volume.now += own.now;
-    volume.before += own.before;
-  }
-
-  Volumes volumes()
-  {
-    constexpr std::size_t RunSize = 1 << 15; // triangles whose shares are summed one after another, whatever the threads
-    const auto& triangles = this->TheMesh.triangles;
-    std::vector<Volumes> runs((triangles.size() + RunSize - 1) / RunSize);
-    this->Run.forRanges(runs.size(), 1,
-      [&](std::size_t firstRun, std::size_t lastRun)
-      {
-        for (std::size_t run = firstRun; run < lastRun; ++run)
-        {
-          for (std::size_t t = run * RunSize; t < std::min((run + 1) * RunSize, triangles.size()); ++t)
-          {
-            this->addVolume(triangles[t], runs[run]);
-          }
-        }
-      });
-    Volumes all;
-    for (const Volumes& run : runs)
-    {
-      for (const auto& [component, volume] : run)
-      {
-        all[component].before += volume.before;
-        all[component].now += volume.now;
-      }
-    }
-    return all;
-  }
-
-  /** May a component's volume be less than it was? Triangles that move, and share points, change it by what their points sweep, wherever that is measured from. */
-  bool mayShrink() const
-  {
-    std::vector<std::int32_t> points;
-    for (const std::int32_t t : this->Moving)
-    {
-      const Triangle& triangle = this->TheMesh.triangles[std::size_t(t)];
-      points.insert(points.end(), triangle.begin(), triangle.end());
-    }
-    sortUnique(points);
-    const auto number = [&](std::int32_t p) { return std::uint32_t(std::lower_bound(points.begin(), points.end(), p) - points.begin()); };
-    UnionFind together(points.size());
-    for (const std::int32_t t : this->Moving)
-    {
-      const Triangle& triangle = this->TheMesh.triangles[std::size_t(t)];
-      together.unite(number(triangle[0]), number(triangle[1]));
-      together.unite(number(triangle[0]), number(triangle[2]));
-    }
-    std::vector<double> growth(points.size(), 0.0); // of those that stand for others
-    for (const std::int32_t t : this->Moving)
-    {
-      const Triangle& triangle = this->TheMesh.triangles[std::size_t(t)];
-      const std::uint32_t set = together.find(number(triangle[0]));
-      growth[set] += this->sixfoldVolume(points[set], triangle).growth();
-    }
-    return std::any_of(growth.begin(), growth.end(), [](double volume) { return volume < 0.0; });
-  }
-
   /** Withdraw components that the moves have turned inside out; false where there are none. */
   bool withdrawInverted()
   {
-    if (!this->mayShrink())
-    {
-      return false;
-    }
-    if (this->Components.size() == 0)
-    {
-      this->Components = connectPoints(this->TheMesh.triangles, this->TheMesh.points.size(), this->Run);
-    }
-    const Volumes volumes = this->volumes();
     bool any = false;
-    for (std::size_t m = 0; m < this->Points.size(); ++m)
+    for (const std::size_t m : this->Volumes.mayShrink(this->Moving) ? this->Volumes.inverted(this->Run) : std::vector<std::size_t>())
     {
-      const Volume& own = volumes.at(this->Components.find(std::uint32_t(this->Points[m])));
-      if (own.before > 0.0 && !(own.now > 0.0))
-      {
-        any = this->withdraw(m) || any;
-      }
+      any = this->withdraw(m) || any;
     }
     return any;
   }
@@ -600,7 +488,7 @@ private:
   std::vector<std::size_t> Points;  ///< that move
   std::vector<Vector3> Original;    ///< their places before
   std::vector<Vector3> Moves;
-  ConcurrentUnionFind Components; ///< of the mesh's points
+  MovedVolumes Volumes;
   std::vector<double> Scale;
   std::vector<int> Withdrawn;
   std::uint64_t Now = 1;                ///< grows with each look for intersections and for what is lost
