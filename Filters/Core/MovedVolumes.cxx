@@ -12,17 +12,16 @@
 namespace silhouette
 {
 
-/** A triangle's share in its component's volume, seen from a point of the mesh. */
-MovedVolumes::Volume MovedVolumes::sixfoldVolume(std::int32_t from, const Triangle& t) const
+/** A triangle's share in its component's volume, seen from a place that does not move. */
+MovedVolumes::Volume MovedVolumes::sixfoldVolume(const Eigen::Vector3d& from, const Triangle& t) const
 {
-  const auto product = [](const Eigen::Vector3d& o, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) { return (a - o).cross(b - o).dot(c - o); };
+  const auto product = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) { return (a - from).cross(b - from).dot(c - from); };
   const auto& points = this->TheMesh.points;
   const auto isStill = [&](std::int32_t p) { return this->Number[std::size_t(p)] < 0; };
   Volume volume;
-  volume.now = product(points[std::size_t(from)], points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])]);
-  volume.before = isStill(from) && std::all_of(t.begin(), t.end(), isStill)
-    ? volume.now
-    : product(this->original(from), this->original(t[0]), this->original(t[1]), this->original(t[2]));
+  volume.now = product(points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])]);
+  volume.before =
+    std::all_of(t.begin(), t.end(), isStill) ? volume.now : product(this->original(t[0]), this->original(t[1]), this->original(t[2]));
   return volume;
 }
 
@@ -48,16 +47,16 @@ bool MovedVolumes::mayShrink(const std::vector<std::int32_t>& moving) const
   {
     const Triangle& triangle = this->TheMesh.triangles[std::size_t(t)];
     const std::uint32_t set = together.find(number(triangle[0]));
-    growth[set] += this->sixfoldVolume(points[set], triangle).growth();
+    growth[set] += this->sixfoldVolume(this->original(points[set]), triangle).growth();
   }
   return std::any_of(growth.begin(), growth.end(), [](double volume) { return volume < 0.0; });
 }
 
-/** Adds a triangle's share to its component's; the points of one component are measured from its first. */
+/** Adds a triangle's share to its component's; those of one component are measured from where its first point was. */
 void MovedVolumes::addVolume(const Triangle& t, Volumes& volumes)
 {
   const std::uint32_t first = this->Components.find(std::uint32_t(t[0]));
-  const Volume own = this->sixfoldVolume(std::int32_t(first), t);
+  const Volume own = this->sixfoldVolume(this->original(std::int32_t(first)), t);
   Volume& volume = volumes[first];
   volume.now += own.now;
   volume.before += own.before;

@@ -56,7 +56,7 @@ private:
   };
   using Volumes = std::map<std::uint32_t, Volume>; ///< of components, by their first points
 
-  Volume sixfoldVolume(std::int32_t from, const Triangle& t) const;
+  Volume sixfoldVolume(const Eigen::Vector3d& from, const Triangle& t) const;
   void addVolume(const Triangle& t, Volumes& volumes);
   Volumes volumes(Execution& execution);
 
