@@ -23,6 +23,19 @@ public:
   std::uint64_t operator[](std::size_t place) const { return this->Codes[place]; }
   /** Place of a code among them, or -1. Cost: a binary search in those that share all but a few low bits with it. */
   std::ptrdiff_t find(std::uint64_t code) const;
+  /** The same for whoever knows the place of one that is near. Cost: where the code comes after that one, and shares all but three bits with it, a step for each between. */
+  std::ptrdiff_t findNear(std::size_t place, std::uint64_t code) const
+  {
+    if (code <= this->Codes[place] || (this->Codes[place] ^ code) >> 3 != 0)
+    {
+      return this->find(code);
+    }
+    do
+    {
+      ++place;
+    } while (place < this->Codes.size() && this->Codes[place] < code);
+    return place < this->Codes.size() && this->Codes[place] == code ? std::ptrdiff_t(place) : -1;
+  }
   /** How many of them are in [from, to). */
   std::size_t count(std::uint64_t from, std::uint64_t to) const;
 

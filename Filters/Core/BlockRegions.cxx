@@ -248,7 +248,7 @@ void BlockRegions::joinBlocks(Steps steps, Execution& execution)
         {
           continue;
         }
-        const std::ptrdiff_t other = around.isBelow(ahead[d].step) ? -1 : this->Blocks.find(around[ahead[d].step]);
+        const std::ptrdiff_t other = around.isBelow(ahead[d].step) ? -1 : this->Blocks.findNear(block, around[ahead[d].step]);
         if (other < 0)
         {
           this->joinElsewhere(block, around, ahead[d], cursor);

@@ -183,10 +183,10 @@ std::vector<std::uint8_t> labelsOf(const LatticeLabels& labels, const CornerShel
         {
           ++at;
         }
-        const LatticePoint p = fromMorton(shell.corners[c]);
-        inside[c] = at != own.end() && *at == shell.corners[c]
-          ? labels.inside()[std::size_t(at - own.begin())] && !labels.octree().lattice.onBorder(p)
-          : labels.insideAt(p);
+        const std::uint64_t code = shell.corners[c];
+        inside[c] = at != own.end() && *at == code
+          ? labels.inside()[std::size_t(at - own.begin())] && !labels.octree().lattice.onBorder(fromMorton(code))
+          : labels.insideAt(fromMorton(code));
       }
     });
   return inside;

@@ -141,11 +141,12 @@ void NarrowOutside::findPoints(const std::vector<std::uint64_t>& opened)
 
 std::ptrdiff_t NarrowCursor::find(const LatticePoint& p) const
 {
-  if (std::min({ p.i, p.j, p.k }) < 0)
-  {
-    return -1;
-  }
-  const std::uint64_t code = mortonCode(p), bit = std::uint64_t(1) << (code & 63);
+  return std::min({ p.i, p.j, p.k }) < 0 ? -1 : this->find(mortonCode(p));
+}
+
+std::ptrdiff_t NarrowCursor::find(std::uint64_t code) const
+{
+  const std::uint64_t bit = std::uint64_t(1) << (code & 63);
   const std::ptrdiff_t block = this->placeOf(code >> 6);
   const std::uint64_t narrow = block < 0 ? 0 : this->Outside->Narrow[std::size_t(block)];
   return (narrow & bit) == 0 ? -1 : std::ptrdiff_t(this->Outside->FirstPoint[std::size_t(block)]) + countBits(narrow & (bit - 1));
@@ -153,16 +154,16 @@ std::ptrdiff_t NarrowCursor::find(const LatticePoint& p) const
 
 NarrowOutside::Label NarrowCursor::at(const LatticePoint& p) const
 {
+  return std::min({ p.i, p.j, p.k }) < 0 ? NarrowOutside::Label::Wide : this->at(mortonCode(p));
+}
+
+NarrowOutside::Label NarrowCursor::at(std::uint64_t code) const
+{
   using Label = NarrowOutside::Label;
-  if (std::min({ p.i, p.j, p.k }) < 0)
-  {
-    return Label::Wide;
-  }
-  const std::uint64_t code = mortonCode(p);
   const std::ptrdiff_t block = this->placeOf(code >> 6);
   if (block < 0)
   {
-    return this->Outside->Labels->insideAt(p) ? Label::Solid : Label::Wide;
+    return this->Outside->Labels->insideAt(fromMorton(code)) ? Label::Solid : Label::Wide;
   }
   const auto has = [&](const std::vector<std::uint64_t>& bits) { return (bits[std::size_t(block)] >> (code & 63) & 1) != 0; };
   return !has(this->Outside->Free) ? Label::Solid : has(this->Outside->Narrow) ? Label::Narrow : Label::Wide;

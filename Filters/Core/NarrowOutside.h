@@ -70,6 +70,9 @@ public:
   NarrowOutside::Label at(const LatticePoint& p) const;
   /** Index of a narrow point, or -1. Its coordinates may lie outside the lattice. */
   std::ptrdiff_t find(const LatticePoint& p) const;
+  /** The same of a point with coordinates of 0 and more, by its Morton code. */
+  NarrowOutside::Label at(std::uint64_t code) const;
+  std::ptrdiff_t find(std::uint64_t code) const;
 
 private:
   std::ptrdiff_t placeOf(std::uint64_t block) const

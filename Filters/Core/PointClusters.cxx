@@ -107,7 +107,7 @@ private:
           {
             const LatticePoint q = own + beside.step;
             const bool mayMeet = (this->Bits[b] & beside.own) != 0 && std::min({ q.i, q.j, q.k }) >= 0;
-            const std::ptrdiff_t other = mayMeet ? this->Blocks.find(mortonCode(q)) : -1;
+            const std::ptrdiff_t other = mayMeet ? this->Blocks.findNear(b, mortonCode(q)) : -1;
             if (other >= 0 && (this->Bits[std::size_t(other)] & beside.others) != 0)
             {
               sets.unite(std::uint32_t(b), std::uint32_t(other));

@@ -82,9 +82,13 @@ public:
   {
   }
 
-  std::ptrdiff_t find(const LatticePoint& p) const { return this->Cursor.find(p); }
+  /** Index of a narrow point, or -1; by its Morton code too, where no coordinate is negative. */
+  template <typename Point> std::ptrdiff_t find(const Point& p) const
+  {
+    return this->Cursor.find(p);
+  }
   /** The part of any lattice point. */
-  Part at(const LatticePoint& p) const
+  template <typename Point> Part at(const Point& p) const
   {
     switch (this->Cursor.at(p))
     {
@@ -238,10 +242,10 @@ public:
   void take(std::size_t n, WideSets* sets)
   {
     this->Outside.take(n);
-    const LatticePoint p = fromMorton(this->Outside.code(n));
+    const CodesAround codes(fromMorton(this->Outside.code(n))); // what is near the border beneath is wide
     for (int a = 0; a < 27; ++a)
     {
-      const std::ptrdiff_t other = this->Near.find(neighbourOf(p, a));
+      const std::ptrdiff_t other = this->Near.find(codes[a]);
       if (other >= 0 && this->Outside[std::size_t(other)] == Narrow)
       {
         this->push(std::size_t(other));
@@ -267,9 +271,10 @@ private:
   int partsAround(const LatticePoint& p) const
   {
     Neighbourhood labels;
+    const CodesAround codes(p); // what is near the border beneath is wide
     for (int a = 0; a < 27; ++a)
     {
-      labels[std::size_t(a)] = a != 13 && !isWide(this->Near.at(neighbourOf(p, a)));
+      labels[std::size_t(a)] = a != 13 && !isWide(this->Near.at(codes[a]));
     }
     const int touching = topologicalNumbers(labels).outside;
     return touching > 1 && this->partsNearby(p) < touching ? 0 : touching;

@@ -30,6 +30,11 @@ TEST(BlockIndex, FindsWhatBinarySearchFinds)
       const std::uint64_t to = code + std::uint64_t(random.below(2000));
       EXPECT_EQ(index.count(code, to), std::size_t(place(to) - at));
     }
+    for (std::size_t near = 0; near < codes.size(); ++near)
+    {
+      const std::uint64_t code = codes[near] + std::uint64_t(random.below(12)) - std::min<std::uint64_t>(codes[near], 4);
+      EXPECT_EQ(index.findNear(near, code), index.find(code)) << codes[near] << " " << code;
+    }
     EXPECT_EQ(index.find(codes.back()), std::ptrdiff_t(codes.size()) - 1);
     EXPECT_EQ(index.find(~std::uint64_t(0)), -1);
   }
