@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The edges of a mesh with the triangles on either side. Triangles that share an edge are mostly near one another in a mesh: edges are looked for in
- * the next triangle first, then among those of few triangles, whose table stays in the processor's cache, then among what these leave, and so on.
+ * The edges of a mesh with the triangles on either side. Triangles that share an edge are mostly near one another in a mesh: edges are looked for among
+ * those of few triangles first, whose table stays in the processor's cache, then among what these leave, and so on.
  */
 #pragma once
 
@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <mutex>
-#include <utility>
 #include <vector>
 
 namespace silhouette
@@ -24,38 +23,6 @@ struct EdgeUse
   std::int32_t to = 0;
   std::uint32_t triangle = 0;
   bool forwards = false; ///< from `from` to `to`
-};
-
-/** The three of a triangle. */
-struct EdgeUses
-{
-  EdgeUse of[3];
-
-  EdgeUses() = default; ///< of none
-  EdgeUses(const Triangle& t, std::uint32_t triangle)
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      const std::int32_t a = t[std::size_t(c)], b = t[std::size_t((c + 1) % 3)];
-      this->of[c] = { std::min(a, b), std::max(a, b), triangle, a < b };
-    }
-  }
-
-  /** Calls `work` as EdgeTable does where one of these, not `done` yet, is the opposite use; then that one is done. */
-  template <typename Work> bool meet(const EdgeUse& use, unsigned& done, Work& work) const
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      const EdgeUse& own = this->of[c];
-      if (own.from == use.from && own.to == use.to && own.forwards != use.forwards && (done >> c & 1) == 0)
-      {
-        done |= 1u << c;
-        use.forwards ? work(use.from, use.to, use.triangle, own.triangle) : work(use.from, use.to, own.triangle, use.triangle);
-        return true;
-      }
-    }
-    return false;
-  }
 };
 
 /** Uses of edges that wait for the opposite one. */
@@ -141,18 +108,12 @@ void forEdges(const Mesh& mesh, Execution& execution, const MakeWorker& makeWork
       auto worker = makeWorker();
       EdgeTable table(2 * std::min(Together, last - first)); // an edge for two triangles at least, where they are apart three
       std::vector<EdgeUse> ofRange;
-      unsigned done = 0; // the uses of a triangle that the one before it has met, a bit each
       for (std::size_t n = first; n < last; ++n)
       {
-        const EdgeUses uses(mesh.triangles[n], std::uint32_t(n));
-        const EdgeUses next = n + 1 < last ? EdgeUses(mesh.triangles[n + 1], std::uint32_t(n + 1)) : EdgeUses();
-        const unsigned doneBefore = std::exchange(done, 0u);
         for (int c = 0; c < 3; ++c)
         {
-          if ((doneBefore >> c & 1) == 0 && !next.meet(uses.of[c], done, worker))
-          {
-            table.add(uses.of[c], worker);
-          }
+          const std::int32_t a = mesh.triangles[n][c], b = mesh.triangles[n][(c + 1) % 3];
+          table.add({ std::min(a, b), std::max(a, b), std::uint32_t(n), a < b }, worker);
         }
         if ((n - first) % Together == Together - 1 || n + 1 == last)
         {
