@@ -9,19 +9,20 @@
 
 namespace silhouette
 {
-CoverageNear::CoverageNear(const Octree& octree, const Mesh& mesh, const std::vector<Box>& swept, Execution& execution)
+CoverageNear::CoverageNear(
+  const Octree& octree, const Mesh& mesh, const std::vector<Box>& swept, const std::vector<std::uint64_t>& cells, Execution& execution)
 {
   this->Part.lattice = octree.lattice;
   this->Part.generations.resize(octree.generations.size());
-  this->findSurvivors(octree, swept);
+  this->findSurvivors(octree, cells);
   this->findTriangles(mesh, swept, execution);
 }
 
-void CoverageNear::findSurvivors(const Octree& octree, const std::vector<Box>& swept)
+void CoverageNear::findSurvivors(const Octree& octree, const std::vector<std::uint64_t>& cells)
 {
   const Generation& last = octree.last();
   Generation& part = this->Part.generations.back();
-  for (const std::uint64_t cell : cellsMet(octree.lattice, swept))
+  for (const std::uint64_t cell : cells)
   {
     const auto at = std::lower_bound(last.code.begin(), last.code.end(), cell);
     const std::size_t index = std::size_t(at - last.code.begin());
@@ -95,7 +96,7 @@ std::vector<std::uint64_t> CoverageNear::lost(const Mesh& mesh, Execution& execu
 std::vector<std::uint64_t> CoverageNear::lostWithin(const std::vector<Box>& boxes, const Mesh& mesh, Execution& execution) const
 {
   const Mesh part = this->Triangles.of(mesh);
-  return CoverageNear(this->Part, part, boxes, execution).lost(part, execution);
+  return CoverageNear(this->Part, part, boxes, cellsMet(this->Part.lattice, boxes), execution).lost(part, execution);
 }
 
 } // namespace silhouette

@@ -20,10 +20,10 @@ class CoverageNear
 public:
   /**
    * `swept`, world coordinates: what moves stays in these boxes, whose union holds every triangle that moves, before and after. `mesh` is the surface
-   * before. Survivors of the last generation that no box meets are crossed and enclosed as before. `octree` is not copied
+   * before; `cells`: cellsMet() of these boxes. Survivors of the last generation that no box meets are crossed and enclosed as before. `octree` is not copied
    * and has to outlive this. Cost: the boxes' octants, and a pass over the triangles.
    */
-  CoverageNear(const Octree& octree, const Mesh& mesh, const std::vector<Box>& swept, Execution& execution);
+  CoverageNear(const Octree& octree, const Mesh& mesh, const std::vector<Box>& swept, const std::vector<std::uint64_t>& cells, Execution& execution);
 
   /** Morton codes, ascending, of the lost survivors that a box meets. `mesh` differs from the one before in points alone. Cost:
    * survivorCoverage() of those octants, with the triangles in their rows along x. */
@@ -32,7 +32,7 @@ public:
   std::vector<std::uint64_t> lostWithin(const std::vector<Box>& boxes, const Mesh& mesh, Execution& execution) const;
 
 private:
-  void findSurvivors(const Octree& octree, const std::vector<Box>& swept);
+  void findSurvivors(const Octree& octree, const std::vector<std::uint64_t>& cells);
   void findTriangles(const Mesh& mesh, const std::vector<Box>& swept, Execution& execution);
 
   Octree Part;        ///< the survivors, in a last generation of their own

@@ -3,8 +3,8 @@
 
 #include "Error.h"
 #include "FieldRefinement.h"
-#include "FirstTouch.h"
 #include "NearViews.h"
+#include "SurfaceCells.h"
 #include "Vectorised.h"
 #include "ViewAgreement.h"
 #include "ViewAlignment.h"
@@ -46,68 +46,6 @@ void check(const FieldCorrectionOptions& options)
   require(options.gentleness >= 0.0, "gentleness", options.gentleness);
   require(options.contourReach > 0.0, "contour reach", options.contourReach);
   require(options.hullConvexity >= 0.0, "hull convexity", options.hullConvexity);
-}
-
-/** The Morton codes, ascending, of the leaf cells that the points of a surface lie in, those beyond the lattice in its outermost ones. */
-std::vector<std::uint64_t> cellsOf(const Mesh& surface, const Lattice& lattice, Execution& execution)
-{
-  constexpr std::uint64_t nowhere = ~std::uint64_t(0);
-  const double cells = 1.0 / lattice.leafEdge(), last = lattice.cells() - 1;
-  std::vector<std::uint64_t> codes;
-  resizeSideBySide(codes, surface.points.size(), execution);
-  execution.forRanges(codes.size(), 4096,
-    [&](std::size_t first, std::size_t end)
-    {
-      for (std::size_t n = first; n < end; ++n)
-      {
-        const Eigen::Array3d x = (surface.points[n] - lattice.root.origin).array() * cells;
-        if (x.isFinite().all())
-        {
-          const Eigen::Array3i c = x.max(0.0).min(last).cast<int>(); // cut off: none is negative
-          codes[n] = mortonCode({ c[0], c[1], c[2] });
-        }
-        else
-        {
-          codes[n] = nowhere;
-        }
-      }
-    });
-  // Most come in the lattice's order.
-  std::vector<std::uint64_t> inOrder, others;
-  inOrder.reserve(codes.size());
-  for (const std::uint64_t code : codes)
-  {
-    if (inOrder.empty() || code > inOrder.back())
-    {
-      inOrder.push_back(code);
-    }
-    else if (code != inOrder.back())
-    {
-      others.push_back(code);
-    }
-  }
-  sortUnique(others);
-  inOrder = united(inOrder, others);
-  if (!inOrder.empty() && inOrder.back() == nowhere)
-  {
-    inOrder.pop_back();
-  }
-  return inOrder;
-}
-
-/** The cells of a lattice with `halvings` generations less that these lie in; both ascending. */
-std::vector<std::uint64_t> coarserCells(const std::vector<std::uint64_t>& cells, int halvings)
-{
-  std::vector<std::uint64_t> coarser;
-  for (const std::uint64_t cell : cells)
-  {
-    const std::uint64_t code = cell >> 3 * halvings;
-    if (coarser.empty() || coarser.back() != code)
-    {
-      coarser.push_back(code);
-    }
-  }
-  return coarser;
 }
 
 /** The mean length of the shifts of the views that say anything. */
@@ -205,7 +143,7 @@ public:
     std::iota(this->All.begin(), this->All.end(), 0);
   }
 
-  /** `cells`: those of the surface's points; `measured`: the residuals of some views against the surface. Lengths are octants of this lattice. */
+  /** `cells`: those of the surface's points; `measured`: the residuals of some views against the surface, which count where this lattice is the surface's. Lengths are octants of this lattice. */
   void run(const std::vector<std::uint64_t>& cells, const std::vector<ContourResidual>& measured, FieldCorrection& result, Execution& execution)
   {
     // As wide as smoothing reaches by one standard deviation, for the noise there is.
@@ -489,9 +427,9 @@ int halvingsFor(double deficit, const Lengths& lengths, const FieldCorrectionOpt
   return halvings;
 }
 
-/** `result` and `residuals` in octants of the lattice. */
+/** `result` and `residuals` in octants of the lattice, which the field's is where the residuals count. */
 void correctOnCoarserLattice(const Mesh& surface, const Lattice& lattice, const PreparedViews& views, const FieldCorrectionOptions& options,
-  std::vector<ContourResidual> residuals, FieldCorrection& result, Execution& execution)
+  const std::vector<ContourResidual>& residuals, FieldCorrection& result, Execution& execution)
 {
   const int halvings = std::min(halvingsFor(result.deficit, Lengths(lattice), options), lattice.depth - 1);
   const Lengths lengths = Lengths(lattice).coarser(halvings);
@@ -499,11 +437,7 @@ void correctOnCoarserLattice(const Mesh& surface, const Lattice& lattice, const 
   FieldCorrection coarse;
   coarse.deficit = result.deficit / lengths.octants;
   coarse.shift = result.shift / lengths.octants;
-  for (ContourResidual& residual : residuals)
-  {
-    residual.mean /= lengths.octants;
-  }
-  const std::vector<std::uint64_t> cells = cellsOf(surface, lattice, execution);
+  const std::vector<std::uint64_t> cells = surfaceCells(surface, lattice, execution);
   Correction(surface, fieldViews, lengths, options).run(coarserCells(cells, halvings), residuals, coarse, execution);
   result.remainingDeficit = coarse.remainingDeficit * lengths.octants;
   result.alignment = coarse.alignment;
@@ -526,7 +460,7 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
   const Lengths lengths(lattice);
   FieldViews fieldViews(views, lattice, lengths.reach());
   const auto some = someOf(fieldViews);
-  auto residuals = contourResiduals(fieldViews, surface, some, lengths.limit(), execution);
+  const auto residuals = contourResiduals(fieldViews, surface, some, lengths.limit(), execution);
   result.deficit = std::max(0.0, typicalResidual(residuals));
   const TypicalShift shift(residuals, some, fieldViews);
   result.shift = shift.octants;
@@ -537,7 +471,7 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
       shift.pixels > FinestShift))
   {
     Phase correcting(execution, 0.3, 1.0);
-    correctOnCoarserLattice(surface, lattice, views, options, std::move(residuals), result, correcting);
+    correctOnCoarserLattice(surface, lattice, views, options, residuals, result, correcting);
   }
   execution.progress(1.0);
   return result;

@@ -39,6 +39,13 @@ std::vector<std::uint64_t> blocksOf(const BrickField& field)
 
 } // namespace
 
+std::uint64_t touchingInside(std::uint64_t block, OctantCursor& octants)
+{
+  return pointsTouching(block,
+    [&](std::uint64_t other)
+    { return octants.cellsOfBlock(other, [](const Octree::Location& octant) { return octant.state == OctantState::Inside; }); });
+}
+
 void FarLabels::fillOctant(int generation, std::size_t index)
 {
   const std::pair<int, std::size_t> octant(generation, index);
@@ -86,9 +93,7 @@ std::uint64_t FarLabels::insideOfBlock(std::uint64_t block, OctantCursor& octant
   {
     return positiveBits(&this->Field->values()[std::size_t(first)]);
   }
-  return pointsTouching(block,
-    [&](std::uint64_t other)
-    { return octants.cellsOfBlock(other, [](const Octree::Location& octant) { return octant.state == OctantState::Inside; }); });
+  return touchingInside(block, octants);
 }
 
 LabelBlocks::LabelBlocks(const CornerShell& shell, const FarLabels& far, Execution& execution)

@@ -15,6 +15,9 @@
 namespace silhouette
 {
 
+/** The points of a block that touch an octant wholly inside, a bit each. */
+std::uint64_t touchingInside(std::uint64_t block, OctantCursor& octants);
+
 /** Labels of lattice points that are no corners of the shell: by a field where it has values, elsewhere by the octree and the cavities that were filled. */
 class FarLabels
 {

@@ -120,8 +120,6 @@ void pinWhereBricksEnd(const Octree& octree, BrickField& field, Execution& execu
     {
       BrickCursor bricks(field);
       OctantCursor octants(octree);
-      const auto insideCells = [&](std::uint64_t block)
-      { return octants.cellsOfBlock(block, [](const Octree::Location& octant) { return octant.state == OctantState::Inside; }); };
       for (std::size_t brick = first; brick < last; ++brick)
       {
         const BrickBits ends = pointsWhereBricksEnd(field.bricks()[brick], bricks);
@@ -129,7 +127,7 @@ void pinWhereBricksEnd(const Octree& octree, BrickField& field, Execution& execu
         {
           float* values = &field.values()[brick * BrickField::BrickPoints + 64 * block];
           const std::uint64_t positive = ends[block] != 0 ? positiveBits(values) : 0;
-          const std::uint64_t wrong = ends[block] != 0 ? ends[block] & (positive ^ pointsTouching(8 * field.bricks()[brick] + block, insideCells)) : 0;
+          const std::uint64_t wrong = ends[block] != 0 ? ends[block] & (positive ^ touchingInside(8 * field.bricks()[brick] + block, octants)) : 0;
           for (std::uint64_t left = wrong; left != 0; left &= left - 1)
           {
             values[lowestBit(left)] = (positive & left & (0 - left)) != 0 ? -0.5f : 0.5f;

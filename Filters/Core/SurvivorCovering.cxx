@@ -111,19 +111,13 @@ private:
       equals.data(), count, [&](std::uint32_t corner, float) { return this->Effects.support(corner); }, [&](std::uint32_t corner) { return this->covers(corner); });
   }
 
-  /** Label a corner inside, of which the effect is known. */
-  void add(std::uint32_t corner, CornerEffect effect)
+  /** Label a corner inside: its cells may have a second component now. */
+  void addUnsettled(std::uint32_t corner)
   {
-    this->Result.mayEnclose = this->Result.mayEnclose || effect == CornerEffect::Otherwise;
+    this->Result.mayEnclose = this->effectOf(corner) == CornerEffect::Otherwise || this->Result.mayEnclose;
     this->Labels.setInside(corner);
     this->Result.coveringCorners.push_back(corner);
     this->Solid.add(corner, this->Effects.setInside(corner));
-  }
-
-  /** The same, and its cells may have a second component now. */
-  void addUnsettled(std::uint32_t corner)
-  {
-    this->add(corner, this->effectOf(corner));
     std::array<std::uint32_t, 8> cells;
     const int count = this->Labels.cellsAround(fromMorton(this->shell().corners[corner]), cells);
     this->Unsettled.insert(this->Unsettled.end(), cells.begin(), cells.begin() + count);

@@ -431,7 +431,7 @@ private:
     {
       this->InRows = this->inSweptRows();
       const Mesh part = this->InRows.of(this->TheMesh);
-      this->Survivors.emplace(this->Thin.octree, part, this->Swept, this->Run);
+      this->Survivors.emplace(this->Thin.octree, part, this->Swept, this->CellsMet, this->Run);
       this->Lost = this->Survivors->lost(part, phase);
     }
     else

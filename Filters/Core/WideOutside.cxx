@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WideOutside.h"
 
-
 #include <algorithm>
 
 namespace silhouette

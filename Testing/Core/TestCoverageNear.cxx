@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CoverageNear.h"
 
+#include "CellBoxes.h"
 #include "CarvingTestCaptures.h"
 #include "SurvivorCoverage.h"
 
@@ -96,7 +97,8 @@ TEST(CoverageNear, LosesWhatTheWholeSurfaceLoses)
           p += length * Vector3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
         }
       }
-      const CoverageNear near(octree, before, sweptBy(before, after), execution);
+      const std::vector<Box> swept = sweptBy(before, after);
+      const CoverageNear near(octree, before, swept, cellsMet(octree.lattice, swept), execution);
       const auto expected = allLost(octree, after);
       EXPECT_EQ(near.lost(after, execution), expected) << seed;
       EXPECT_TRUE(near.lost(before, execution).empty()) << seed;
@@ -129,5 +131,5 @@ TEST(CoverageNear, NothingThatMovesLosesNothing)
   Execution execution;
   const Mesh sphere = sphereMesh(3, 0.7);
   const Octree octree = coveredOctants({ unitCube(1.1), 4 }, sphere);
-  EXPECT_TRUE(CoverageNear(octree, sphere, {}, execution).lost(sphere, execution).empty());
+  EXPECT_TRUE(CoverageNear(octree, sphere, {}, {}, execution).lost(sphere, execution).empty());
 }

@@ -155,7 +155,7 @@ TEST(LostCovering, IsThatOfOneOctantAfterAnother)
   std::size_t covered = 0, components = 0;
   for (int scene = 0; scene < 12; ++scene)
   {
-    Execution execution;
+    ThreadedExecution execution(1 + scene % 3);
     Random random(scene);
     auto captured = viewsOf(torusMesh(48, 24, 0.75, random.uniform(0.05, 0.3)), swayingRing(6 + scene % 4, 100), 100);
     disturb(captured, scene % 5, random);

@@ -48,9 +48,9 @@ UnionFind joinedWithin(const std::vector<std::uint64_t>& points, int most)
 
 TEST(PointClusters, HoldWhatIsTwoStepsApartAndNothingThatIsFar)
 {
-  Execution execution;
   for (int scene = 0; scene < 12; ++scene)
   {
+    ThreadedExecution execution(1 + scene % 3);
     Random random(scene);
     const auto points = scattered(20 + 60 * scene, 40, random);
     const PointClusters clusters = clustersOf(points, execution);

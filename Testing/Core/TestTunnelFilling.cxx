@@ -207,7 +207,8 @@ TEST(TunnelFilling, IsThatOfOnePointAfterAnother)
         return most;
       });
     const int width = 1 + trial % 4;
-    const auto walls = tunnelWalls(*solid.labels, { true, width, 1000.0 }, solid.execution);
+    ThreadedExecution execution(1 + trial % 3);
+    const auto walls = tunnelWalls(*solid.labels, { true, width, 1000.0 }, execution);
     OneByOne other(solid, width);
     EXPECT_EQ(walls, other.walls()) << trial;
     filled += walls.size();
