@@ -8,69 +8,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numeric>
 
 namespace silhouette
 {
 namespace
 {
-
-/** Half of a symmetric kernel: the weights at 0, 1, 2, ... */
-using HalfKernel = std::vector<double>;
-
-double weightAt(const HalfKernel& kernel, int i)
-{
-  const auto place = std::size_t(std::abs(i));
-  return place < kernel.size() ? kernel[place] : 0.0;
-}
-
-double sumOf(const HalfKernel& kernel)
-{
-  return 2.0 * std::accumulate(kernel.begin(), kernel.end(), 0.0) - kernel.front();
-}
-
-double secondMoment(const HalfKernel& kernel)
-{
-  double moment = 0.0;
-  for (std::size_t i = 1; i < kernel.size(); ++i)
-  {
-    moment += 2.0 * double(i * i) * kernel[i];
-  }
-  return moment;
-}
-
-/**
- * A Gaussian g would draw a curved surface towards its inner side, by half of sigma squared times the curvature; in a g - b g * g
- * the two draw alike. a and b: the weights add up to 1, their second moment is 0.
- */
-std::vector<float> keepingKernel(double sigma)
-{
-  constexpr double Narrow = 3.0, Wide = 4.5; // standard deviations up to which the Gaussian and the whole are taken
-  HalfKernel gaussian(std::size_t(std::max(1.0, std::ceil(Narrow * sigma))) + 1);
-  for (std::size_t i = 0; i < gaussian.size(); ++i)
-  {
-    gaussian[i] = std::exp(-0.5 * double(i * i) / (sigma * sigma));
-  }
-  HalfKernel twice(std::size_t(std::max(2.0, std::ceil(Wide * sigma))) + 1, 0.0);
-  const int radius = int(gaussian.size()) - 1;
-  for (std::size_t i = 0; i < twice.size(); ++i)
-  {
-    for (int j = -radius; j <= radius; ++j)
-    {
-      twice[i] += weightAt(gaussian, j) * weightAt(gaussian, int(i) - j);
-    }
-  }
-  const double moment = secondMoment(twice);
-  const double share = moment > 0.0 ? secondMoment(gaussian) / moment : 0.0; // b / a; 0 where sigma is next to none
-  const double a = 1.0 / (sumOf(gaussian) - share * sumOf(twice));
-  std::vector<float> kernel(twice.size());
-  for (std::size_t i = 0; i < kernel.size(); ++i)
-  {
-    kernel[i] = float(a * (weightAt(gaussian, int(i)) - share * twice[i]));
-  }
-  return kernel;
-}
 
 /** Where a field is positive, by blocks of 4 x 4 x 4 points: eight of each brick, a bit a point. */
 class BlockSigns
@@ -133,15 +75,6 @@ private:
   const BrickField& Field;
   std::vector<std::uint64_t> Positive;
 };
-
-/** Of the first point of a line along an axis. */
-std::size_t localIndex(int axis, int a, int b)
-{
-  LatticePoint p;
-  (axis == 0 ? p.j : p.i) = a;
-  (axis == 2 ? p.j : p.k) = b;
-  return std::size_t(mortonCode(p));
-}
 
 /**
  * The bricks that cells of one brick ask for. Along each axis a cell asks for those from one of two on, to one of two: there are no more than 64 kinds
@@ -296,85 +229,6 @@ std::ptrdiff_t BrickField::find(std::uint64_t point) const
 {
   const std::ptrdiff_t brick = this->findBrick(point / BrickPoints);
   return brick < 0 ? -1 : brick * std::ptrdiff_t(BrickPoints) + std::ptrdiff_t(point % BrickPoints);
-}
-
-void BrickField::smoothAlong(int axis, const std::vector<float>& kernel, Execution& execution)
-{
-  const int radius = int(kernel.size()) - 1;
-  const int reach = (radius + BrickSize - 1) / BrickSize; // in bricks
-  std::vector<float> result(this->Values.size());
-  std::array<std::size_t, BrickSize> along;
-  for (int t = 0; t < BrickSize; ++t)
-  {
-    along[t] = std::size_t(spreadBits(std::uint64_t(t)) << axis);
-  }
-  execution.forRanges(this->Bricks.size(), 8,
-    [&](std::size_t firstBrick, std::size_t lastBrick)
-    {
-      std::vector<std::ptrdiff_t> beside(2 * reach + 1);
-      std::vector<float> line(BrickSize * beside.size());
-      for (std::size_t brick = firstBrick; brick < lastBrick; ++brick)
-      {
-        const LatticePoint p = fromMorton(this->Bricks[brick]);
-        beside[reach] = std::ptrdiff_t(brick);
-        for (int side = -1; side <= 1; side += 2)
-        {
-          for (int n = 1; n <= reach; ++n)
-          {
-            LatticePoint q = p;
-            std::int32_t& x = axis == 0 ? q.i : axis == 1 ? q.j : q.k;
-            x += side * n;
-            const std::ptrdiff_t nearer = beside[reach + side * (n - 1)];
-            beside[reach + side * n] = nearer < 0 || x < 0 ? -1 : this->findBrick(mortonCode(q));
-          }
-        }
-        for (int ab = 0; ab < BrickSize * BrickSize; ++ab)
-        {
-          const std::size_t first = localIndex(axis, ab % BrickSize, ab / BrickSize);
-          const auto load = [&](int slot)
-          {
-            for (int t = 0; beside[slot] >= 0 && t < BrickSize; ++t)
-            {
-              line[slot * BrickSize + t] = this->Values[beside[slot] * BrickPoints + first + along[t]];
-            }
-          };
-          load(reach);
-          for (int n = 1; n <= reach; ++n)
-          {
-            float* low = &line[(reach - n) * BrickSize];
-            float* high = &line[(reach + n) * BrickSize];
-            std::fill(low, low + BrickSize, low[BrickSize]);
-            std::fill(high, high + BrickSize, high[-1]);
-            load(reach - n);
-            load(reach + n);
-          }
-          for (int t = 0; t < BrickSize; ++t)
-          {
-            const float* middle = &line[reach * BrickSize + t];
-            float sum = kernel[0] * middle[0];
-            for (int d = 1; d <= radius; ++d)
-            {
-              sum += kernel[d] * (middle[-d] + middle[d]);
-            }
-            result[brick * BrickPoints + first + along[t]] = sum;
-          }
-        }
-      }
-    });
-  this->Values.swap(result);
-}
-
-void BrickField::smooth(double sigma, Execution& execution)
-{
-  if (sigma <= 0.0)
-  {
-    return;
-  }
-  const std::vector<float> kernel = keepingKernel(sigma);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    this->smoothAlong(axis, kernel, execution);
-  }
 }
 
 std::vector<std::uint64_t> BrickField::mixedCells(Execution& execution) const

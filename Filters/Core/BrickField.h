@@ -48,19 +48,12 @@ public:
   /** Index of a point, or -1. */
   std::ptrdiff_t find(std::uint64_t point) const;
 
-  /**
-   * Smoothing that draws no curved surface inwards: along each axis a Gaussian of standard deviation `sigma` octants, less a share of itself smoothed
-   * once more, so that polynomials up to the third degree stay. Where bricks end the last value goes on. Cost: for each value and axis 9 sigma values.
-   */
-  void smooth(double sigma, Execution& execution);
   /** Codes of the leaf cells that have corners of both signs, ascending; a value of 0 is outside. */
   std::vector<std::uint64_t> mixedCells(Execution& execution) const;
   /** The surface where the field is 0, by marching cubes with linear interpolation. */
   Mesh contourMesh(Execution& execution) const;
 
 private:
-  void smoothAlong(int axis, const std::vector<float>& kernel, Execution& execution);
-
   Lattice TheLattice;
   std::vector<std::uint64_t> Bricks;
   std::vector<float> Values;

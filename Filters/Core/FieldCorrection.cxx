@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "FieldRefinement.h"
+#include "FieldSmoothing.h"
 #include "NearViews.h"
 #include "SurfaceCells.h"
 #include "Vectorised.h"
@@ -360,7 +361,7 @@ private:
   static void smoothGently(BrickField& field, double sigma, double most, Execution& execution)
   {
     const std::vector<float> before = field.values();
-    field.smooth(sigma, execution);
+    smoothField(field, sigma, execution);
     execution.forRanges(before.size(), 1 << 16,
       [&](std::size_t first, std::size_t last)
       {

@@ -136,100 +136,6 @@ TEST(BrickField, FindsItsPointsAndNoOthers)
   EXPECT_EQ(BrickField().find(0), -1);
 }
 
-TEST(BrickField, SmoothingKeepsCubicFunctionsAwayFromMissingBricks)
-{
-  Execution execution;
-  const Lattice lattice = latticeOf(6);
-  Random random(3);
-  std::vector<std::uint64_t> cells; // a bar along each axis, three bricks thick, that cross
-  for (const std::uint64_t cell : allCells(lattice))
-  {
-    const LatticePoint p = fromMorton(cell);
-    const int middle = (p.i / 24 == 1) + (p.j / 24 == 1) + (p.k / 24 == 1);
-    if (middle >= 2)
-    {
-      cells.push_back(cell);
-    }
-  }
-  for (const double sigma : { 0.3, 1.0, 2.5, 3.2 })
-  {
-    BrickField field(lattice, cells, 0, execution);
-    const auto cubic = [](const LatticePoint& p)
-    {
-      const double x = p.i / 32.0 - 1.0, y = p.j / 32.0 - 1.0, z = p.k / 32.0 - 1.0; // a plain Gaussian of 1 octant would change y^2 by 0.001
-      return 5.0 + 0.3 * x - 2.0 * y * y + 3.0 * x * x * x - x * y * z + 4.0 * z * z;
-    };
-    fill(field, cubic);
-    field.smooth(sigma, execution);
-    const int radius = std::max(2, int(std::ceil(4.5 * sigma)));
-    int interior = 0, changed = 0;
-    for (std::size_t n = 0; n < field.size(); ++n)
-    {
-      const LatticePoint p = fromMorton(field.code(n));
-      bool full = true; // does the field have values for the whole of the kernel?
-      for (int corner = 0; corner < 8; ++corner)
-      {
-        const LatticePoint o = cornerOffset(corner);
-        const LatticePoint q{ p.i + (2 * o.i - 1) * radius, p.j + (2 * o.j - 1) * radius, p.k + (2 * o.k - 1) * radius };
-        full = full && q.i >= 0 && q.j >= 0 && q.k >= 0 && field.find(mortonCode(q)) >= 0;
-      }
-      const double error = std::abs(field.values()[n] - cubic(p));
-      interior += full;
-      changed += !full && error > 0.001;
-      EXPECT_TRUE(!full || error < 1e-5) << sigma << " at " << p.i << " " << p.j << " " << p.k << ": " << error;
-    }
-    EXPECT_GT(interior, 100) << sigma;
-    EXPECT_TRUE(sigma < 1.0 || changed > 100) << sigma; // where bricks end the last value goes on
-  }
-}
-
-TEST(BrickField, SmoothingHasNoSecondMomentAndReducesNoise)
-{
-  Execution execution;
-  const Lattice lattice = latticeOf(5);
-  BrickField field(lattice, allCells(lattice), 0, execution);
-  const LatticePoint middle{ 16, 15, 17 };
-  fill(field, [&](const LatticePoint& p) { return p == middle ? 1000.0 : 0.0; });
-  field.smooth(1.3, execution);
-  double sum = 0.0, square[3] = { 0, 0, 0 };
-  for (std::size_t n = 0; n < field.size(); ++n)
-  {
-    const LatticePoint p = fromMorton(field.code(n));
-    const double weight = field.values()[n] / 1000.0;
-    sum += weight;
-    square[0] += weight * (p.i - middle.i) * (p.i - middle.i);
-    square[1] += weight * (p.j - middle.j) * (p.j - middle.j);
-    square[2] += weight * (p.k - middle.k) * (p.k - middle.k);
-  }
-  EXPECT_NEAR(sum, 1.0, 1e-4);
-  for (const double variance : square)
-  {
-    EXPECT_NEAR(variance, 0.0, 1e-4);
-  }
-
-  Random random(4);
-  fill(field, [&](const LatticePoint&) { return random.uniform(-1.0, 1.0); });
-  const auto deviation = [&]
-  {
-    double squares = 0.0;
-    for (const float value : field.values())
-    {
-      squares += double(value) * value;
-    }
-    return std::sqrt(squares / double(field.size()));
-  };
-  const double before = deviation();
-  const BrickField noise = field;
-  field.smooth(1.3, execution);
-  // White noise falls, along each axis, to the root of the integral of (2 g - g * g)^2: (4 / 2 - 4 / sqrt(6) + 1 / 2 / sqrt(2)) /
-  // sqrt(pi) / sigma, with g a Gaussian; a little less where bricks end.
-  const double axis = (2.0 - 4.0 / std::sqrt(6.0) + 0.5 / std::sqrt(2.0)) / std::sqrt(std::acos(-1.0)) / 1.3;
-  EXPECT_NEAR(deviation() / before, std::pow(axis, 1.5), 0.05);
-  field = noise;
-  field.smooth(0.0, execution);
-  EXPECT_EQ(field.values(), noise.values());
-}
-
 TEST(BrickField, MixedCellsAreThoseWithCornersOfBothSigns)
 {
   Execution execution;
@@ -314,7 +220,6 @@ TEST(BrickField, SameBytesForAnyNumberOfThreads)
     {
       value += float(random.uniform(-1.5, 1.5));
     }
-    field.smooth(0.8, execution);
     return std::make_pair(field, field.contourMesh(execution));
   };
   Execution serial;
