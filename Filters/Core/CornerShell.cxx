@@ -6,6 +6,7 @@
 #include "CodeCursor.h"
 #include "FirstTouch.h"
 #include "RadixSort.h"
+#include "Selection.h"
 
 #include <algorithm>
 #include <iterator>
@@ -22,8 +23,8 @@ namespace
  */
 struct Word
 {
-  std::uint64_t block = 0;
-  std::uint64_t bits = 0;
+  std::uint64_t block;
+  std::uint64_t bits;
 };
 
 /**
@@ -81,7 +82,7 @@ struct CornerPlaces
 struct Share
 {
   Word corners;
-  std::uint32_t source = 0; ///< eight times the number of the cell block, and the index of cornersOf
+  std::uint32_t source; ///< eight times the number of the cell block, and the index of cornersOf
 };
 
 /** Makes a shell block by block: whole words of cells become words of corners. */
@@ -121,16 +122,20 @@ private:
   void blockCells()
   {
     const auto& cells = this->Shell.cells;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-    {
-      if (i == 0 || cells[i] >> 6 != this->Cells.back().block)
-      {
-        this->Cells.push_back({ cells[i] >> 6, 0 });
-        this->FirstCell.push_back(i);
-      }
-      this->Cells.back().bits |= std::uint64_t(1) << (cells[i] & 63);
-    }
+    this->FirstCell = selected(
+      cells.size(), [&](std::size_t i) { return i == 0 || cells[i] >> 6 != cells[i - 1] >> 6; }, [](std::size_t i) { return i; }, this->Exec);
+    this->Cells.resize(this->FirstCell.size());
     this->FirstCell.push_back(cells.size());
+    this->forBlocks(this->Cells.size(),
+      [&](std::size_t b)
+      {
+        Word word{ cells[this->FirstCell[b]] >> 6, 0 };
+        for (std::size_t cell = this->FirstCell[b]; cell < this->FirstCell[b + 1]; ++cell)
+        {
+          word.bits |= std::uint64_t(1) << (cells[cell] & 63);
+        }
+        this->Cells[b] = word;
+      });
   }
 
   /** All shares in blocks of corners, sorted by block. */
@@ -163,28 +168,31 @@ private:
       });
     // A step on any axis may carry into that axis's next bit, three above, in blocks before the last one too.
     const int cellBits = shares.empty() ? 0 : highestBit(this->Cells.back().block | 1) + 1;
-    radixSort(shares, cellBits + 3, [](const Share& s) { return s.corners.block; });
+    radixSort(shares, cellBits + 3, [](const Share& s) { return s.corners.block; }, this->Exec);
     return shares;
   }
 
   void joinShares(const std::vector<Share>& shares)
   {
-    this->Corners.reserve(shares.size() / 2);
+    std::vector<std::size_t> starts = selected(
+      shares.size(), [&](std::size_t n) { return n == 0 || shares[n - 1].corners.block != shares[n].corners.block; }, [](std::size_t n) { return n; }, this->Exec);
+    this->Corners.resize(starts.size());
     this->Target.resize(8 * this->Cells.size());
-    for (const Share& share : shares)
-    {
-      if (this->Corners.empty() || this->Corners.back().block != share.corners.block)
+    this->FirstCorner.resize(starts.size() + 1, 0);
+    starts.push_back(shares.size());
+    this->forBlocks(this->Corners.size(),
+      [&](std::size_t b)
       {
-        this->Corners.push_back({ share.corners.block, 0 });
-      }
-      this->Corners.back().bits |= share.corners.bits;
-      this->Target[share.source] = std::uint32_t(this->Corners.size() - 1);
-    }
-    this->FirstCorner.resize(this->Corners.size() + 1, 0);
-    for (std::size_t b = 0; b < this->Corners.size(); ++b)
-    {
-      this->FirstCorner[b + 1] = this->FirstCorner[b] + std::uint32_t(countBits(this->Corners[b].bits));
-    }
+        Word word{ shares[starts[b]].corners.block, 0 };
+        for (std::size_t n = starts[b]; n < starts[b + 1]; ++n)
+        {
+          word.bits |= shares[n].corners.bits;
+          this->Target[shares[n].source] = std::uint32_t(b);
+        }
+        this->Corners[b] = word;
+        this->FirstCorner[b + 1] = std::uint32_t(countBits(word.bits));
+      });
+    std::partial_sum(this->FirstCorner.begin(), this->FirstCorner.end(), this->FirstCorner.begin());
   }
 
   void nameCorners()
@@ -204,7 +212,7 @@ private:
   void nameCellCorners()
   {
     static const CornerPlaces places;
-    resizeSideBySide(this->Shell.cellCorners, this->Shell.cells.size(), this->Exec);
+    this->Shell.cellCorners.resize(this->Shell.cells.size());
     this->forBlocks(this->Cells.size(),
       [&](std::size_t b)
       {
@@ -319,7 +327,7 @@ CornerShell withCells(const CornerShell& shell, const std::vector<std::uint64_t>
   std::vector<std::uint32_t> cornerPlaces, cellPlaces; // of the shell's
   wider.corners = merged(shell.corners, corners, cornerPlaces, execution);
   wider.cells = merged(shell.cells, cells, cellPlaces, execution);
-  resizeSideBySide(wider.cellCorners, wider.cells.size(), execution);
+  wider.cellCorners.resize(wider.cells.size());
   execution.forRanges(shell.cells.size(), 4096,
     [&](std::size_t first, std::size_t last)
     {
@@ -342,23 +350,21 @@ CornerShell withCells(const CornerShell& shell, const std::vector<std::uint64_t>
   return wider;
 }
 
-std::vector<std::uint64_t> leafCells(const Octree& octree, OctantState state)
+std::vector<std::uint64_t> leafCells(const Octree& octree, OctantState state, Execution& execution)
 {
-  std::vector<std::uint64_t> cells;
   if (octree.generations.empty())
   {
-    return cells;
+    return {};
   }
-  cells.reserve(octree.count(state, octree.lattice.depth));
   const auto& last = octree.last();
-  for (std::size_t i = 0; i < last.size(); ++i)
-  {
-    if (last.state[i] == state)
-    {
-      cells.push_back(last.code[i]);
-    }
-  }
-  return cells;
+  return selected(
+    last.size(), [&](std::size_t i) { return last.state[i] == state; }, [&](std::size_t i) { return last.code[i]; }, execution);
+}
+
+std::vector<std::uint64_t> leafCells(const Octree& octree, OctantState state)
+{
+  Execution alone;
+  return leafCells(octree, state, alone);
 }
 
 } // namespace silhouette

@@ -16,11 +16,17 @@
 namespace silhouette
 {
 
+/** Indices of a cell's corners, by their numbers; of any value until they are written, so that memory of many is not. */
+struct CellCorners : std::array<std::uint32_t, 8>
+{
+  CellCorners() {}
+};
+
 struct CornerShell
 {
-  std::vector<std::uint64_t> cells;                     ///< Morton codes of leaf cells, ascending
-  std::vector<std::uint64_t> corners;                   ///< Morton codes of their corners, ascending
-  std::vector<std::array<std::uint32_t, 8>> cellCorners; ///< for each cell the indices of its corners
+  std::vector<std::uint64_t> cells;     ///< Morton codes of leaf cells, ascending
+  std::vector<std::uint64_t> corners;   ///< Morton codes of their corners, ascending
+  std::vector<CellCorners> cellCorners; ///< for each cell
 
   /** Index of a corner, or -1. Cost: a binary search; for many near one another see CodeCursor. */
   std::ptrdiff_t find(std::uint64_t corner) const;
@@ -37,7 +43,8 @@ CornerShell makeCornerShell(std::vector<std::uint64_t> cells, Execution& executi
  */
 CornerShell withCells(const CornerShell& shell, const std::vector<std::uint64_t>& others, Execution& execution);
 
-/** Codes of the octree's last-generation octants of one state. */
+/** Codes of the octree's last-generation octants of one state, ascending; without an execution on this thread. */
+std::vector<std::uint64_t> leafCells(const Octree& octree, OctantState state, Execution& execution);
 std::vector<std::uint64_t> leafCells(const Octree& octree, OctantState state);
 
 } // namespace silhouette

@@ -167,7 +167,7 @@ public:
     this->findLeast(this->modelRank(), execution);
     if (this->Options.alignViews)
     {
-      result.remainingDeficit = std::max(0.0, typicalResidual(this->residuals(this->Least.contourMesh(execution), this->All, execution)));
+      result.remainingDeficit = std::max(0.0, typicalResidual(this->residuals(this->Least.contourMesh(execution), this->Some, execution)));
     }
     execution.checkpoint(0.65);
     if (this->Options.moveSurface)

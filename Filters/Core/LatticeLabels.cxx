@@ -199,7 +199,7 @@ void LatticeLabels::labelByVotes(const std::vector<std::uint16_t>& votes, Execut
   }
   else
   {
-    this->setSurvivors(leafCells(this->octree(), OctantState::Intersection));
+    this->setSurvivors(leafCells(this->octree(), OctantState::Intersection, execution));
   }
   const int required = this->octree().viewCount - this->octree().backgroundVotes;
   resizeSideBySide(this->Support, votes.size(), execution);
@@ -246,7 +246,7 @@ LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const Bric
   : Far(octree, &field)
   , Shell(std::move(shell))
 {
-  this->setSurvivors(leafCells(octree, OctantState::Intersection));
+  this->setSurvivors(leafCells(octree, OctantState::Intersection, execution));
   resizeSideBySide(this->Inside, this->Shell.corners.size(), execution);
   resizeSideBySide(this->Support, this->Shell.corners.size(), execution);
   const auto& corners = this->Shell.corners;

@@ -287,7 +287,7 @@ LocalHullOptions plainOptions(const LocalHullOptions& options)
 
 CornerShell intersectionShell(const Octree& octree, Execution& execution)
 {
-  return makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
+  return makeCornerShell(leafCells(octree, OctantState::Intersection, execution), execution);
 }
 
 /** Robust without views. */
@@ -423,7 +423,7 @@ std::vector<LocalHull> classifyLocalHulls(const Mesh& imperfect, const Octree& o
     Phase hulling(execution, 0.4, 1.0);
     return thesisHulls(covered.mesh, octree, options, hulling);
   }
-  CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
+  CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection, execution), execution);
   const LatticeLabels labels = views ? LatticeLabels(octree, std::move(shell), *views, execution)
                                      : LatticeLabels(octree, std::move(shell), locateCrossings(imperfect, octree.lattice, CrossingSides::Located, execution));
   return localHulls(imperfect, labels, options.hulls, execution);

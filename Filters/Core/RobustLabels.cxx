@@ -140,7 +140,7 @@ void pinWhereBricksEnd(const Octree& octree, BrickField& field, Execution& execu
 /** Last-generation inside octants of `octree` without an inside corner by the labels' source: they need covering too. */
 std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLabels& labels, Execution& execution)
 {
-  const std::vector<std::uint64_t> inside = leafCells(octree, OctantState::Inside);
+  const std::vector<std::uint64_t> inside = leafCells(octree, OctantState::Inside, execution);
   const auto makeTest = [&]
   {
     return [&, cache = LabelCache(labels)](std::size_t n) mutable
@@ -251,7 +251,7 @@ LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std
   std::vector<std::uint64_t> cells = std::move(shell.cells);
   if (capture.recarved)
   {
-    cells = united(cells, leafCells(base, OctantState::Intersection));
+    cells = united(cells, leafCells(base, OctantState::Intersection, execution));
   }
   if (const auto& field = capture.correction.field)
   {

@@ -97,7 +97,7 @@ VotingSurface votingMarchingCubes(
 {
   const int allowed = allowedBackgroundVotes(octree, views, options);
   const LatticeViews latticeViews(views, octree.lattice);
-  const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
+  const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection, execution), execution);
   execution.checkpoint(0.15);
 
   const CellViews cellViews(octree, shell, latticeViews, execution);

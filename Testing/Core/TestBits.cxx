@@ -4,6 +4,7 @@
 #include "FirstTouch.h"
 #include "LeastNumbers.h"
 #include "RadixSort.h"
+#include "Selection.h"
 
 #include "CarvingTestCaptures.h"
 
@@ -44,19 +45,49 @@ TEST(Bits, CountsLowestAndHighestAreThoseOfALoop)
 TEST(RadixSort, IsAStableSortByAsManyBitsAsAreNamed)
 {
   Random random(2);
-  for (const int bits : { 0, 1, 11, 12, 40, 64 })
+  for (const int bits : { 0, 1, 11, 12, 13, 25, 40, 64 })
   {
-    std::vector<std::pair<std::uint64_t, int>> items;
-    for (int i = 0; i < 3000; ++i)
+    const std::uint64_t mask = bits == 0 ? 0 : ~std::uint64_t(0) >> (64 - bits);
+    for (const int count : { 0, 1, 3000, 100000 })
     {
-      const std::uint64_t mask = bits == 0 ? 0 : ~std::uint64_t(0) >> (64 - bits);
-      items.emplace_back(random.next() >> random.below(64) & mask, i);
+      std::vector<std::pair<std::uint64_t, int>> items;
+      for (int i = 0; i < count; ++i)
+      {
+        items.emplace_back(random.next() >> random.below(64), i); // some with further bits, which do not count
+      }
+      auto expected = items;
+      std::stable_sort(
+        expected.begin(), expected.end(), [&](const auto& a, const auto& b) { return (a.first & mask) < (b.first & mask); });
+      for (const int threads : { 1, 2, 8 })
+      {
+        ThreadedExecution execution(threads);
+        auto sorted = items;
+        radixSort(sorted, bits, [](const auto& item) { return item.first; }, execution);
+        EXPECT_EQ(sorted, expected) << bits << " bits, " << count << " items, " << threads << " threads";
+      }
     }
-    auto expected = items;
-    std::stable_sort(
-      expected.begin(), expected.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    radixSort(items, bits, [](const auto& item) { return item.first; });
-    EXPECT_EQ(items, expected) << bits << " bits";
+  }
+}
+
+TEST(Selection, TakesThoseThatAreWantedInTheirOrder)
+{
+  for (const std::size_t count : { std::size_t(0), std::size_t(1), std::size_t(32768), std::size_t(200001) })
+  {
+    const auto isWanted = [](std::size_t i) { return i % 7 == 3 || i / 40000 == 2; };
+    std::vector<std::uint32_t> expected;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (isWanted(i))
+      {
+        expected.push_back(std::uint32_t(5 * i));
+      }
+    }
+    for (const int threads : { 1, 2, 8 })
+    {
+      ThreadedExecution execution(threads);
+      EXPECT_EQ(selected(count, isWanted, [](std::size_t i) { return std::uint32_t(5 * i); }, execution), expected) << count << ", " << threads;
+      EXPECT_TRUE(selected(count, [](std::size_t) { return false; }, [](std::size_t i) { return i; }, execution).empty());
+    }
   }
 }
 
