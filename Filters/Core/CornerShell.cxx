@@ -3,10 +3,10 @@
 
 #include "Bits.h"
 #include "BlockBits.h"
+#include "BlockWords.h"
 #include "CodeCursor.h"
 #include "FirstTouch.h"
-#include "RadixSort.h"
-#include "Selection.h"
+#include "IndicesWhere.h"
 
 #include <algorithm>
 #include <iterator>
@@ -16,16 +16,6 @@ namespace silhouette
 {
 namespace
 {
-
-/**
- * Lattice points or cells of one block of 4 x 4 x 4, whose codes differ in their six lowest bits alone: bit n of
- * `bits` is the one of code 64 block + n.
- */
-struct Word
-{
-  std::uint64_t block;
-  std::uint64_t bits;
-};
 
 /**
  * The corners of a block's cells, in the block itself and, bit d of the index for a step on axis d, in the blocks
@@ -81,7 +71,7 @@ struct CornerPlaces
 /** A cell block's share in a block of corners. */
 struct Share
 {
-  Word corners;
+  BlockWord word;
   std::uint32_t source; ///< eight times the number of the cell block, and the index of cornersOf
 };
 
@@ -97,10 +87,9 @@ public:
 
   void make()
   {
-    this->blockCells();
-    std::vector<Share> shares = this->shareCorners();
-    this->joinShares(shares);
-    shares = std::vector<Share>();
+    this->FirstCell = blockStarts(this->Shell.cells, this->Exec);
+    this->Cells = blockWords(this->Shell.cells, this->FirstCell, this->Exec);
+    this->shareCorners();
     this->nameCorners();
     this->nameCellCorners();
   }
@@ -119,79 +108,28 @@ private:
       });
   }
 
-  void blockCells()
+  /** What each block of cells has in blocks of corners, joined. */
+  void shareCorners()
   {
-    const auto& cells = this->Shell.cells;
-    this->FirstCell = selected(
-      cells.size(), [&](std::size_t i) { return i == 0 || cells[i] >> 6 != cells[i - 1] >> 6; }, [](std::size_t i) { return i; }, this->Exec);
-    this->Cells.resize(this->FirstCell.size());
-    this->FirstCell.push_back(cells.size());
-    this->forBlocks(this->Cells.size(),
-      [&](std::size_t b)
+    const auto forShares = [&](std::size_t b, const auto& add)
+    {
+      const auto corners = cornersOf(this->Cells[b].bits);
+      for (int n = 0; n < 8; ++n)
       {
-        Word word{ cells[this->FirstCell[b]] >> 6, 0 };
-        for (std::size_t cell = this->FirstCell[b]; cell < this->FirstCell[b + 1]; ++cell)
+        if (corners[n] != 0)
         {
-          word.bits |= std::uint64_t(1) << (cells[cell] & 63);
+          add(Share{ { blockBeyond(this->Cells[b].block, n), corners[n] }, std::uint32_t(8 * b + n) });
         }
-        this->Cells[b] = word;
-      });
-  }
-
-  /** All shares in blocks of corners, sorted by block. */
-  std::vector<Share> shareCorners()
-  {
-    std::vector<std::size_t> end(this->Cells.size() + 1, 0);
-    this->forBlocks(this->Cells.size(),
-      [&](std::size_t b)
-      {
-        for (const std::uint64_t bits : cornersOf(this->Cells[b].bits))
-        {
-          end[b + 1] += bits != 0;
-        }
-      });
-    std::partial_sum(end.begin(), end.end(), end.begin());
-    std::vector<Share> shares;
-    resizeSideBySide(shares, end.back(), this->Exec);
-    this->forBlocks(this->Cells.size(),
-      [&](std::size_t b)
-      {
-        std::size_t at = end[b];
-        const auto corners = cornersOf(this->Cells[b].bits);
-        for (int n = 0; n < 8; ++n)
-        {
-          if (corners[n] != 0)
-          {
-            shares[at++] = { { blockBeyond(this->Cells[b].block, n), corners[n] }, std::uint32_t(8 * b + n) };
-          }
-        }
-      });
+      }
+    };
+    std::vector<Share> shares = collectParts<Share>(this->Cells.size(), forShares, this->Exec);
     // A step on any axis may carry into that axis's next bit, three above, in blocks before the last one too.
     const int cellBits = shares.empty() ? 0 : highestBit(this->Cells.back().block | 1) + 1;
-    radixSort(shares, cellBits + 3, [](const Share& s) { return s.corners.block; }, this->Exec);
-    return shares;
-  }
-
-  void joinShares(const std::vector<Share>& shares)
-  {
-    std::vector<std::size_t> starts = selected(
-      shares.size(), [&](std::size_t n) { return n == 0 || shares[n - 1].corners.block != shares[n].corners.block; }, [](std::size_t n) { return n; }, this->Exec);
-    this->Corners.resize(starts.size());
     this->Target.resize(8 * this->Cells.size());
-    this->FirstCorner.resize(starts.size() + 1, 0);
-    starts.push_back(shares.size());
-    this->forBlocks(this->Corners.size(),
-      [&](std::size_t b)
-      {
-        Word word{ shares[starts[b]].corners.block, 0 };
-        for (std::size_t n = starts[b]; n < starts[b + 1]; ++n)
-        {
-          word.bits |= shares[n].corners.bits;
-          this->Target[shares[n].source] = std::uint32_t(b);
-        }
-        this->Corners[b] = word;
-        this->FirstCorner[b + 1] = std::uint32_t(countBits(word.bits));
-      });
+    this->Corners = joinParts(
+      shares, cellBits + 3, [&](const Share& share, std::size_t b) { this->Target[share.source] = std::uint32_t(b); }, this->Exec);
+    this->FirstCorner.resize(this->Corners.size() + 1, 0);
+    std::transform(this->Corners.begin(), this->Corners.end(), this->FirstCorner.begin() + 1, [](const BlockWord& word) { return std::uint32_t(countBits(word.bits)); });
     std::partial_sum(this->FirstCorner.begin(), this->FirstCorner.end(), this->FirstCorner.begin());
   }
 
@@ -241,9 +179,9 @@ private:
 
   CornerShell& Shell;
   Execution& Exec;
-  std::vector<Word> Cells;                ///< blocks of cells, ascending
+  std::vector<BlockWord> Cells;                ///< blocks of cells, ascending
   std::vector<std::size_t> FirstCell;     ///< of each block, and the end
-  std::vector<Word> Corners;              ///< blocks of corners, ascending
+  std::vector<BlockWord> Corners;              ///< blocks of corners, ascending
   std::vector<std::uint32_t> FirstCorner; ///< of each block, and the end
   std::vector<std::uint32_t> Target;      ///< for each share of a cell block the block of corners
 };

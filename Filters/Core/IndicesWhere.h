@@ -6,12 +6,53 @@
 
 #include "Execution.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace silhouette
 {
+
+/** `make(i)` for each i in [0, count) of which `isWanted(i)` holds, ascending; both may be asked from any thread, `isWanted` twice. */
+template <typename IsWanted, typename Make>
+auto selected(std::size_t count, const IsWanted& isWanted, const Make& make, Execution& execution) -> std::vector<decltype(make(std::size_t()))>
+{
+  constexpr std::size_t RangeSize = 1 << 15;
+  const std::size_t ranges = (count + RangeSize - 1) / RangeSize;
+  std::vector<std::size_t> ends(ranges + 1, 0);
+  const auto forItems = [&](std::size_t range, const auto& work)
+  {
+    for (std::size_t i = range * RangeSize; i < std::min((range + 1) * RangeSize, count); ++i)
+    {
+      if (isWanted(i))
+      {
+        work(i);
+      }
+    }
+  };
+  execution.forRanges(ranges, 1,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t range = first; range < last; ++range)
+      {
+        forItems(range, [&](std::size_t) { ++ends[range + 1]; });
+      }
+    });
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<decltype(make(std::size_t()))> some(ends.back());
+  execution.forRanges(ranges, 1,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t range = first; range < last; ++range)
+      {
+        std::size_t at = ends[range];
+        forItems(range, [&](std::size_t i) { some[at++] = make(i); });
+      }
+    });
+  return some;
+}
 
 /**
  * The numbers n below `count` for which a test holds, ascending. `grain` as forRanges() has it; `makeTest()` makes the test of each range, `test(n)`, which
@@ -30,15 +71,7 @@ std::vector<std::int32_t> indicesWhereTests(std::size_t count, std::size_t grain
         holds[n] = test(n);
       }
     });
-  std::vector<std::int32_t> indices;
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    if (holds[n] != 0)
-    {
-      indices.push_back(std::int32_t(n));
-    }
-  }
-  return indices;
+  return selected(count, [&](std::size_t n) { return holds[n] != 0; }, [](std::size_t n) { return std::int32_t(n); }, execution);
 }
 
 /** The same with one test, which may be called at the same time. */

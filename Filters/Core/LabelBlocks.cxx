@@ -16,12 +16,8 @@ namespace
 /** The blocks of sorted codes of points. */
 std::vector<std::uint64_t> blocksOf(const std::vector<std::uint64_t>& points, Execution& execution)
 {
-  std::vector<std::uint64_t> blocks;
-  for (const std::int32_t n : indicesWhere(points.size(), 4096, execution, [&](std::size_t one) { return one == 0 || points[one - 1] >> 6 != points[one] >> 6; }))
-  {
-    blocks.push_back(points[std::size_t(n)] >> 6);
-  }
-  return blocks;
+  return selected(
+    points.size(), [&](std::size_t n) { return n == 0 || points[n - 1] >> 6 != points[n] >> 6; }, [&](std::size_t n) { return points[n] >> 6; }, execution);
 }
 
 std::vector<std::uint64_t> blocksOf(const BrickField& field)

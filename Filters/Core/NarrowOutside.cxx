@@ -52,25 +52,25 @@ std::vector<std::uint64_t> mixedBlocks(const LatticeLabels& labels, Execution& e
  * All blocks with points within `width` octants of a cell of the given blocks. From an outside point elsewhere no cell with corners of both labels is
  * within a cube's reach: there it is wide.
  */
-std::vector<std::uint64_t> blocksNear(const std::vector<std::uint64_t>& blocks, int width)
+std::vector<std::uint64_t> blocksNear(const std::vector<std::uint64_t>& blocks, int width, Execution& execution)
 {
   const int reach = 1 + width / BlockSide;
-  PointBlocks near(blocks);
+  PointBlocks near(blocks, execution);
   for (int axis = 0; axis < 3; ++axis)
   {
     for (int step = 0; step < reach; ++step)
     {
-      near = near.spread(axis);
+      near = near.spread(axis, execution);
     }
   }
-  return near.points();
+  return near.points(execution);
 }
 
 } // namespace
 
 NarrowOutside::NarrowOutside(const LatticeLabels& labels, int width, Execution& execution)
   : Labels(&labels)
-  , Blocks(blocksNear(mixedBlocks(labels, execution), width))
+  , Blocks(blocksNear(mixedBlocks(labels, execution), width, execution))
 {
   this->Free = labels.insideOfBlocks(this->Blocks.codes(), execution);
   std::transform(this->Free.begin(), this->Free.end(), this->Free.begin(), [](std::uint64_t inside) { return ~inside; });

@@ -27,129 +27,119 @@ std::uint64_t ofLattice(const Lattice& lattice, std::uint64_t block)
   return within;
 }
 
+struct Part
+{
+  BlockWord word;
+};
+
+/** The points that leave a block on an axis, in the block there. */
+template <typename Add>
+void addBeyond(const BlockWord& block, int axis, const Add& add)
+{
+  for (const bool ahead : { true, false })
+  {
+    const std::uint64_t there = ahead ? fromBehind(0, block.bits, axis) : fromAhead(0, block.bits, axis);
+    std::uint64_t other = 0;
+    if (there != 0 && besideBlock(block.block, axis, ahead, other))
+    {
+      add(Part{ { other, there } });
+    }
+  }
+}
+
+/** What `forParts(block, add)` adds for all blocks, joined. */
+template <typename ForParts>
+std::vector<BlockWord> joinedParts(const std::vector<BlockWord>& blocks, const ForParts& forParts, Execution& execution)
+{
+  std::vector<Part> parts = collectParts<Part>(blocks.size(), [&](std::size_t n, const auto& add) { forParts(blocks[n], add); }, execution);
+  // A step on any axis may carry into that axis's next bit, three above.
+  const int bits = blocks.empty() ? 0 : highestBit(blocks.back().block | 1) + 1;
+  return joinParts(parts, bits + 3, [](const Part&, std::size_t) {}, execution);
+}
+
 } // namespace
 
-PointBlocks::PointBlocks(const std::vector<std::uint64_t>& points)
+PointBlocks::PointBlocks(const std::vector<std::uint64_t>& points, Execution& execution)
+  : Blocks(blockWords(points, blockStarts(points, execution), execution))
 {
-  for (const std::uint64_t point : points)
-  {
-    if (this->Blocks.empty() || this->Blocks.back().code != point >> 6)
-    {
-      this->Blocks.push_back({ point >> 6, 0 });
-    }
-    this->Blocks.back().points |= std::uint64_t(1) << (point & 63);
-  }
 }
 
-std::vector<std::uint64_t> PointBlocks::points() const
+std::vector<std::uint64_t> PointBlocks::points(Execution& execution) const
 {
-  std::vector<std::uint64_t> points;
-  for (const Block& block : this->Blocks)
+  const auto forPoints = [&](std::size_t n, const auto& add)
   {
-    for (std::uint64_t left = block.points; left != 0; left &= left - 1)
+    for (std::uint64_t left = this->Blocks[n].bits; left != 0; left &= left - 1)
     {
-      points.push_back(64 * block.code + std::uint64_t(lowestBit(left)));
+      add(64 * this->Blocks[n].block + std::uint64_t(lowestBit(left)));
     }
-  }
-  return points;
+  };
+  return collectParts<std::uint64_t>(this->Blocks.size(), forPoints, execution);
 }
 
-/** Of parts of blocks the first of which are ascending, no code twice; the others are sorted. */
-PointBlocks PointBlocks::joined(std::vector<Block> within, std::vector<Block>& beyond)
+PointBlocks PointBlocks::spread(int axis, Execution& execution) const
 {
-  std::sort(beyond.begin(), beyond.end(), [](const Block& a, const Block& b) { return a.code < b.code; });
+  const auto forParts = [axis](const BlockWord& block, const auto& add)
+  {
+    add(Part{ { block.block, spreadInBlock(block.bits, axis) } });
+    addBeyond(block, axis, add);
+  };
   PointBlocks result;
-  for (auto own = within.begin(), other = beyond.begin(); own != within.end() || other != beyond.end();)
-  {
-    const std::uint64_t code = other == beyond.end() || (own != within.end() && own->code < other->code) ? own->code : other->code;
-    Block block{ code, 0 };
-    if (own != within.end() && own->code == code)
-    {
-      block.points = (own++)->points;
-    }
-    for (; other != beyond.end() && other->code == code; ++other)
-    {
-      block.points |= other->points;
-    }
-    if (block.points != 0)
-    {
-      result.Blocks.push_back(block);
-    }
-  }
+  result.Blocks = joinedParts(this->Blocks, forParts, execution);
   return result;
 }
 
-PointBlocks PointBlocks::spread(int axis) const
+PointBlocks PointBlocks::beside(const Lattice& lattice, Execution& execution) const
 {
-  std::vector<Block> within = this->Blocks, beyond;
-  for (Block& block : within)
+  const auto forParts = [](const BlockWord& block, const auto& add)
   {
-    const std::uint64_t points = block.points;
-    std::uint64_t other = 0;
-    block.points = spreadInBlock(points, axis);
-    for (const bool ahead : { true, false })
-    {
-      const std::uint64_t there = ahead ? fromBehind(0, points, axis) : fromAhead(0, points, axis);
-      if (there != 0 && besideBlock(block.code, axis, ahead, other))
-      {
-        beyond.push_back({ other, there });
-      }
-    }
-  }
-  return joined(std::move(within), beyond);
-}
-
-PointBlocks PointBlocks::beside(const Lattice& lattice) const
-{
-  std::vector<Block> within = this->Blocks, beyond;
-  for (Block& block : within)
-  {
-    const std::uint64_t points = block.points;
-    block.points = 0;
+    std::uint64_t within = 0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      block.points |= fromAhead(points, 0, axis) | fromBehind(points, 0, axis);
-      for (const bool ahead : { true, false })
-      {
-        const std::uint64_t there = ahead ? fromBehind(0, points, axis) : fromAhead(0, points, axis);
-        std::uint64_t other = 0;
-        if (there != 0 && besideBlock(block.code, axis, ahead, other))
-        {
-          beyond.push_back({ other, there });
-        }
-      }
+      within |= fromAhead(block.bits, 0, axis) | fromBehind(block.bits, 0, axis);
+      addBeyond(block, axis, add);
     }
-  }
-  PointBlocks result = joined(std::move(within), beyond);
-  for (Block& block : result.Blocks)
-  {
-    block.points &= ofLattice(lattice, block.code);
-  }
-  result.dropEmpty();
+    add(Part{ { block.block, within } });
+  };
+  PointBlocks result;
+  result.Blocks = joinedParts(this->Blocks, forParts, execution);
+  execution.forRanges(result.Blocks.size(), 1024,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t b = first; b < last; ++b)
+      {
+        result.Blocks[b].bits &= ofLattice(lattice, result.Blocks[b].block);
+      }
+    });
+  result.dropEmpty(execution);
   return result;
 }
 
-void PointBlocks::remove(const PointBlocks& other)
+void PointBlocks::remove(const PointBlocks& other, Execution& execution)
 {
-  auto at = other.Blocks.begin();
-  for (Block& block : this->Blocks)
-  {
-    while (at != other.Blocks.end() && at->code < block.code)
+  execution.forRanges(this->Blocks.size(), 1024,
+    [&](std::size_t first, std::size_t last)
     {
-      ++at;
-    }
-    if (at != other.Blocks.end() && at->code == block.code)
-    {
-      block.points &= ~at->points;
-    }
-  }
-  this->dropEmpty();
+      auto at = std::lower_bound(other.Blocks.begin(), other.Blocks.end(), this->Blocks[first].block, [](const BlockWord& word, std::uint64_t block) { return word.block < block; });
+      for (std::size_t b = first; b < last && at != other.Blocks.end(); ++b)
+      {
+        BlockWord& block = this->Blocks[b];
+        while (at != other.Blocks.end() && at->block < block.block)
+        {
+          ++at;
+        }
+        if (at != other.Blocks.end() && at->block == block.block)
+        {
+          block.bits &= ~at->bits;
+        }
+      }
+    });
+  this->dropEmpty(execution);
 }
 
-void PointBlocks::dropEmpty()
+void PointBlocks::dropEmpty(Execution& execution)
 {
-  this->Blocks.erase(std::remove_if(this->Blocks.begin(), this->Blocks.end(), [](const Block& b) { return b.points == 0; }),
-    this->Blocks.end());
+  this->Blocks = selected(
+    this->Blocks.size(), [this](std::size_t b) { return this->Blocks[b].bits != 0; }, [this](std::size_t b) { return this->Blocks[b]; }, execution);
 }
 
 } // namespace silhouette

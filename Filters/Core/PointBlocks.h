@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include "BlockWords.h"
+#include "Execution.h"
 #include "Lattice.h"
 
 #include <cstdint>
@@ -12,34 +14,28 @@
 namespace silhouette
 {
 
+/** Everything is done side by side, with the same outcome whatever the threads. */
 class PointBlocks
 {
 public:
   PointBlocks() = default;
   /** `points`: Morton codes, ascending. */
-  explicit PointBlocks(const std::vector<std::uint64_t>& points);
+  PointBlocks(const std::vector<std::uint64_t>& points, Execution& execution);
 
   bool empty() const { return this->Blocks.empty(); }
   /** Morton codes of the points, ascending. */
-  std::vector<std::uint64_t> points() const;
-  /** The lattice's points one step along a lattice edge from one of these, among them such as are in this set. Cost: n log n in the blocks. */
-  PointBlocks beside(const Lattice& lattice) const;
+  std::vector<std::uint64_t> points(Execution& execution) const;
+  /** The lattice's points one step along a lattice edge from one of these, among them such as are in this set. Cost: linear in the blocks. */
+  PointBlocks beside(const Lattice& lattice, Execution& execution) const;
   /** These points and those one step before and behind on an axis, none of which is negative. Cost: as beside(). */
-  PointBlocks spread(int axis) const;
+  PointBlocks spread(int axis, Execution& execution) const;
   /** Take the other set's points out. Cost: linear in the blocks. */
-  void remove(const PointBlocks& other);
+  void remove(const PointBlocks& other, Execution& execution);
 
 private:
-  struct Block
-  {
-    std::uint64_t code;
-    std::uint64_t points; ///< a bit each, not none
-  };
+  void dropEmpty(Execution& execution);
 
-  void dropEmpty();
-  static PointBlocks joined(std::vector<Block> within, std::vector<Block>& beyond);
-
-  std::vector<Block> Blocks; ///< ascending
+  std::vector<BlockWord> Blocks; ///< ascending, none without points
 };
 
 } // namespace silhouette

@@ -2,6 +2,7 @@
 #include "RejectedCorners.h"
 
 #include "CornerVotes.h"
+#include "IndicesWhere.h"
 #include "LatticeLabels.h"
 #include "PointBlocks.h"
 #include "SilhouetteDissent.h"
@@ -100,15 +101,8 @@ std::vector<std::uint64_t> onceDisputed(const Octree& octree, const LatticeViews
     return shell.corners;
   }
   votes = octreeVotes(octree, shell, views, [&] { return shellVotes(octree, shell, views, execution); });
-  std::vector<std::uint64_t> corners;
-  for (std::size_t c = 0; c < votes->size(); ++c)
-  {
-    if (int((*votes)[c]) == views.size() - 1)
-    {
-      corners.push_back(shell.corners[c]);
-    }
-  }
-  return corners;
+  return selected(
+    votes->size(), [&](std::size_t c) { return int((*votes)[c]) == views.size() - 1; }, [&](std::size_t c) { return shell.corners[c]; }, execution);
 }
 
 /** Sorted by view, then by code. */
@@ -146,7 +140,7 @@ std::vector<Rejected> findRejected(const Octree& octree, const LatticeViews& vie
   std::vector<Rejected> rejected;
   const std::vector<std::uint64_t> first = onceDisputed(octree, views, shell, votes, execution);
   votes ? appendRejectedOnce(octree, views, first, rejected, execution) : appendRejected(views, first, rejected, execution);
-  PointBlocks before, now(shell.corners);
+  PointBlocks before, now(shell.corners, execution);
   for (std::size_t done = 0; done < rejected.size();)
   {
     execution.checkpoint(0.0);
@@ -155,12 +149,12 @@ std::vector<Rejected> findRejected(const Octree& octree, const LatticeViews& vie
     {
       latest.push_back(rejected[done].corner);
     }
-    PointBlocks next = PointBlocks(latest).beside(views.lattice());
-    next.remove(before);
-    next.remove(now);
+    PointBlocks next = PointBlocks(latest, execution).beside(views.lattice(), execution);
+    next.remove(before, execution);
+    next.remove(now, execution);
     before = std::move(now);
     now = std::move(next);
-    appendRejected(views, now.points(), rejected, execution);
+    appendRejected(views, now.points(execution), rejected, execution);
   }
   return byView(rejected, views.size(), execution);
 }

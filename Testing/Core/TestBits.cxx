@@ -2,9 +2,9 @@
 #include "Bits.h"
 
 #include "FirstTouch.h"
+#include "IndicesWhere.h"
 #include "LeastNumbers.h"
 #include "RadixSort.h"
-#include "Selection.h"
 
 #include "CarvingTestCaptures.h"
 
@@ -69,7 +69,7 @@ TEST(RadixSort, IsAStableSortByAsManyBitsAsAreNamed)
   }
 }
 
-TEST(Selection, TakesThoseThatAreWantedInTheirOrder)
+TEST(IndicesWhere, SelectedAreThoseThatAreWantedInTheirOrder)
 {
   for (const std::size_t count : { std::size_t(0), std::size_t(1), std::size_t(32768), std::size_t(200001) })
   {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 using namespace silhouette;
@@ -26,7 +27,8 @@ std::set<std::uint64_t> someCodes(const Lattice& lattice, Random& random, int co
 
 PointBlocks blocksOf(const std::set<std::uint64_t>& codes)
 {
-  return PointBlocks(std::vector<std::uint64_t>(codes.begin(), codes.end()));
+  Execution execution;
+  return PointBlocks(std::vector<std::uint64_t>(codes.begin(), codes.end()), execution);
 }
 
 } // namespace
@@ -34,66 +36,67 @@ PointBlocks blocksOf(const std::set<std::uint64_t>& codes)
 TEST(PointBlocks, NeighboursAreThoseOfThePointsOneByOne)
 {
   Random random(3);
-  for (const int depth : { 1, 3, 4 })
+  const std::vector<std::array<int, 3>> cases{ { 1, 1, 1 }, { 1, 10, 2 }, { 3, 1, 1 }, { 3, 10, 8 }, { 3, 200, 2 }, { 4, 200, 1 }, { 6, 20000, 1 },
+    { 6, 20000, 2 }, { 6, 20000, 8 } };
+  for (const auto& [depth, count, threads] : cases)
   {
     const Lattice lattice{ unitCube(), depth };
-    for (const int count : { 1, 10, 200 })
+    ThreadedExecution execution(threads);
+    const auto codes = someCodes(lattice, random, count);
+    std::set<std::uint64_t> expected;
+    for (const std::uint64_t code : codes)
     {
-      const auto codes = someCodes(lattice, random, count);
-      std::set<std::uint64_t> expected;
+      for (const int n : EdgeNeighbours)
+      {
+        const LatticePoint q = neighbourOf(fromMorton(code), n);
+        if (isOfLattice(q, lattice.cells()))
+        {
+          expected.insert(mortonCode(q));
+        }
+      }
+    }
+    const PointBlocks set = blocksOf(codes);
+    EXPECT_EQ(set.points(execution), std::vector<std::uint64_t>(codes.begin(), codes.end()));
+    EXPECT_EQ(set.beside(lattice, execution).points(execution), std::vector<std::uint64_t>(expected.begin(), expected.end()));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      std::set<std::uint64_t> wider = codes;
       for (const std::uint64_t code : codes)
       {
-        for (const int n : EdgeNeighbours)
+        for (const int step : { -1, 1 })
         {
-          const LatticePoint q = neighbourOf(fromMorton(code), n);
-          if (isOfLattice(q, lattice.cells()))
+          const LatticePoint q = fromMorton(code) + LatticePoint{ step * (axis == 0), step * (axis == 1), step * (axis == 2) };
+          if (std::min({ q.i, q.j, q.k }) >= 0)
           {
-            expected.insert(mortonCode(q));
+            wider.insert(mortonCode(q));
           }
         }
       }
-      const PointBlocks set = blocksOf(codes);
-      EXPECT_EQ(set.points(), std::vector<std::uint64_t>(codes.begin(), codes.end()));
-      EXPECT_EQ(set.beside(lattice).points(), std::vector<std::uint64_t>(expected.begin(), expected.end()));
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        std::set<std::uint64_t> wider = codes;
-        for (const std::uint64_t code : codes)
-        {
-          for (const int step : { -1, 1 })
-          {
-            const LatticePoint q = fromMorton(code) + LatticePoint{ step * (axis == 0), step * (axis == 1), step * (axis == 2) };
-            if (std::min({ q.i, q.j, q.k }) >= 0)
-            {
-              wider.insert(mortonCode(q));
-            }
-          }
-        }
-        EXPECT_EQ(set.spread(axis).points(), std::vector<std::uint64_t>(wider.begin(), wider.end()));
-      }
-      // Less some others.
-      const auto others = someCodes(lattice, random, count);
-      for (const std::uint64_t code : others)
-      {
-        expected.erase(code);
-      }
-      PointBlocks rest = set.beside(lattice);
-      rest.remove(blocksOf(others));
-      EXPECT_EQ(rest.points(), std::vector<std::uint64_t>(expected.begin(), expected.end()));
-      EXPECT_EQ(rest.empty(), expected.empty());
+      EXPECT_EQ(set.spread(axis, execution).points(execution), std::vector<std::uint64_t>(wider.begin(), wider.end()));
     }
+    // Less some others.
+    const auto others = someCodes(lattice, random, count);
+    for (const std::uint64_t code : others)
+    {
+      expected.erase(code);
+    }
+    PointBlocks rest = set.beside(lattice, execution);
+    rest.remove(blocksOf(others), execution);
+    EXPECT_EQ(rest.points(execution), std::vector<std::uint64_t>(expected.begin(), expected.end()));
+    EXPECT_EQ(rest.empty(), expected.empty());
   }
 }
 
 TEST(PointBlocks, OfNoPoints)
 {
+  Execution execution;
   const Lattice lattice{ unitCube(), 3 };
   PointBlocks none;
   EXPECT_TRUE(none.empty());
-  EXPECT_TRUE(none.beside(lattice).empty());
-  PointBlocks one({ 5 });
-  one.remove(none);
-  EXPECT_EQ(one.points(), std::vector<std::uint64_t>{ 5 });
-  one.remove(one);
+  EXPECT_TRUE(none.beside(lattice, execution).empty());
+  PointBlocks one({ 5 }, execution);
+  one.remove(none, execution);
+  EXPECT_EQ(one.points(execution), std::vector<std::uint64_t>{ 5 });
+  one.remove(one, execution);
   EXPECT_TRUE(one.empty());
 }
