@@ -186,33 +186,39 @@ private:
   std::vector<std::uint32_t> Target;      ///< for each share of a cell block the block of corners
 };
 
-/** Two lists without a code in common, each ascending; `places`: where the first's codes have come to. */
-std::vector<std::uint64_t> merged(
-  const std::vector<std::uint64_t>& many, const std::vector<std::uint64_t>& few, std::vector<std::uint32_t>& places, Execution& execution)
+/** Two lists of codes without a code in common, each ascending, and where their codes come to in one. */
+struct Merged
 {
-  std::vector<std::uint64_t> all;
-  resizeSideBySide(all, many.size() + few.size(), execution);
-  resizeSideBySide(places, many.size(), execution);
-  execution.forRanges(many.size(), 4096,
-    [&](std::size_t first, std::size_t last)
-    {
-      auto other = std::lower_bound(few.begin(), few.end(), many[first]);
-      for (std::size_t n = first; n < last; ++n)
-      {
-        while (other != few.end() && *other < many[n])
-        {
-          ++other;
-        }
-        places[n] = std::uint32_t(n + std::size_t(other - few.begin()));
-        all[places[n]] = many[n];
-      }
-    });
-  for (std::size_t n = 0; n < few.size(); ++n)
+  std::vector<std::uint64_t> codes;
+  std::vector<std::uint32_t> placesOfMany, placesOfFew;
+
+  Merged(const std::vector<std::uint64_t>& many, const std::vector<std::uint64_t>& few, Execution& execution)
   {
-    all[n + std::size_t(std::lower_bound(many.begin(), many.end(), few[n]) - many.begin())] = few[n];
+    resizeSideBySide(this->codes, many.size() + few.size(), execution);
+    this->place(many, few, this->placesOfMany, execution);
+    this->place(few, many, this->placesOfFew, execution);
   }
-  return all;
-}
+
+private:
+  void place(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& others, std::vector<std::uint32_t>& places, Execution& execution)
+  {
+    resizeSideBySide(places, own.size(), execution);
+    execution.forRanges(own.size(), 4096,
+      [&](std::size_t first, std::size_t last)
+      {
+        auto other = std::lower_bound(others.begin(), others.end(), own[first]);
+        for (std::size_t n = first; n < last; ++n)
+        {
+          while (other != others.end() && *other < own[n])
+          {
+            ++other;
+          }
+          places[n] = std::uint32_t(n + std::size_t(other - others.begin()));
+          this->codes[places[n]] = own[n];
+        }
+      });
+  }
+};
 
 } // namespace
 
@@ -249,42 +255,40 @@ CornerShell withCells(const CornerShell& shell, const std::vector<std::uint64_t>
   {
     return makeCornerShell(united(shell.cells, cells), execution);
   }
-  std::vector<std::uint64_t> corners;
-  for (const std::uint64_t cell : cells)
-  {
-    for (int c = 0; c < 8; ++c)
-    {
-      corners.push_back(mortonCode(fromMorton(cell) + cornerOffset(c)));
-    }
-  }
-  sortUnique(corners);
-  CodeCursor known(shell.corners);
-  corners.erase(std::remove_if(corners.begin(), corners.end(), [&](std::uint64_t corner) { return known.find(corner) >= 0; }), corners.end());
-
-  CornerShell wider;
-  std::vector<std::uint32_t> cornerPlaces, cellPlaces; // of the shell's
-  wider.corners = merged(shell.corners, corners, cornerPlaces, execution);
-  wider.cells = merged(shell.cells, cells, cellPlaces, execution);
-  wider.cellCorners.resize(wider.cells.size());
-  execution.forRanges(shell.cells.size(), 4096,
+  const CornerShell added = makeCornerShell(std::move(cells), execution);
+  std::vector<std::ptrdiff_t> known(added.corners.size()); // among the shell's
+  execution.forRanges(known.size(), 1024,
     [&](std::size_t first, std::size_t last)
     {
-      for (std::size_t cell = first; cell < last; ++cell)
-      {
-        auto& own = wider.cellCorners[cellPlaces[cell]];
-        std::transform(shell.cellCorners[cell].begin(), shell.cellCorners[cell].end(), own.begin(),
-          [&](std::uint32_t corner) { return cornerPlaces[corner]; });
-      }
+      CodeCursor own(shell.corners);
+      std::transform(added.corners.begin() + std::ptrdiff_t(first), added.corners.begin() + std::ptrdiff_t(last), known.begin() + std::ptrdiff_t(first),
+        [&](std::uint64_t corner) { return own.find(corner); });
     });
-  CodeCursor all(wider.corners), allCells(wider.cells);
-  for (const std::uint64_t cell : cells)
+  const auto corners = selected(known.size(), [&](std::size_t n) { return known[n] < 0; }, [&](std::size_t n) { return added.corners[n]; }, execution);
+  Merged mergedCorners(shell.corners, corners, execution), mergedCells(shell.cells, added.cells, execution);
+  std::vector<std::uint32_t> places(known.size()); // of the added cells' corners
+  auto next = mergedCorners.placesOfFew.begin();
+  std::transform(known.begin(), known.end(), places.begin(),
+    [&](std::ptrdiff_t own) { return own < 0 ? *next++ : mergedCorners.placesOfMany[std::size_t(own)]; });
+
+  CornerShell wider;
+  wider.corners = std::move(mergedCorners.codes);
+  wider.cells = std::move(mergedCells.codes);
+  wider.cellCorners.resize(wider.cells.size());
+  const auto rename = [&](const std::vector<CellCorners>& from, const std::vector<std::uint32_t>& cellPlaces, const std::vector<std::uint32_t>& cornerPlaces)
   {
-    auto& own = wider.cellCorners[std::size_t(allCells.find(cell))];
-    for (int c = 0; c < 8; ++c)
-    {
-      own[std::size_t(c)] = std::uint32_t(all.find(mortonCode(fromMorton(cell) + cornerOffset(c))));
-    }
-  }
+    execution.forRanges(from.size(), 4096,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t cell = first; cell < last; ++cell)
+        {
+          std::transform(from[cell].begin(), from[cell].end(), wider.cellCorners[cellPlaces[cell]].begin(),
+            [&](std::uint32_t corner) { return cornerPlaces[corner]; });
+        }
+      });
+  };
+  rename(shell.cellCorners, mergedCells.placesOfMany, mergedCorners.placesOfMany);
+  rename(added.cellCorners, mergedCells.placesOfFew, places);
   return wider;
 }
 

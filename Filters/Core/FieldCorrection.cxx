@@ -447,6 +447,40 @@ void correctOnCoarserLattice(const Mesh& surface, const Lattice& lattice, const 
                                : refinedField(*coarse.field, halvings, cells, RefinedMargin, execution);
 }
 
+/**
+ * Residuals of the surface in some views. Half of these come first, by pairs, so that of two cameras which take turns both are among them: where they say that there is nothing near the smallest
+ * deficit that counts, the others say nothing.
+ */
+std::vector<ContourResidual> firstResiduals(const FieldViews& fieldViews, const Mesh& surface, const std::vector<int>& some, double limit,
+  double smallestDeficit, Execution& execution)
+{
+  constexpr double Near = 1.0 / 3.0; // of the smallest deficit; from a half on, a shift counts as well
+  std::vector<ContourResidual> residuals(some.size());
+  const auto measure = [&](bool later)
+  {
+    std::vector<int> views, places;
+    for (std::size_t n = 0; n < some.size(); ++n)
+    {
+      if ((n / 2 % 2 != 0) == later)
+      {
+        views.push_back(some[n]);
+        places.push_back(int(n));
+      }
+    }
+    const auto measured = contourResiduals(fieldViews, surface, views, limit, execution);
+    for (std::size_t n = 0; n < places.size(); ++n)
+    {
+      residuals[std::size_t(places[n])] = measured[n];
+    }
+  };
+  measure(false);
+  if (some.size() > 2 && typicalResidual(residuals) >= Near * smallestDeficit)
+  {
+    measure(true);
+  }
+  return residuals;
+}
+
 } // namespace
 
 FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const PreparedViews& views,
@@ -461,7 +495,7 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
   const Lengths lengths(lattice);
   FieldViews fieldViews(views, lattice, lengths.reach());
   const auto some = someOf(fieldViews);
-  const auto residuals = contourResiduals(fieldViews, surface, some, lengths.limit(), execution);
+  const auto residuals = firstResiduals(fieldViews, surface, some, lengths.limit(), options.smallestDeficit, execution);
   result.deficit = std::max(0.0, typicalResidual(residuals));
   const TypicalShift shift(residuals, some, fieldViews);
   result.shift = shift.octants;

@@ -80,7 +80,7 @@ struct FieldCorrection
 
 /**
  * Correct `surface`, marching cubes' of the views. Throws InvalidInput for an option out of range, Cancelled.
- * Cost: the deficit renders every third view; a correction renders every view two times or more and looks up
+ * Cost: the deficit renders every third view, or every sixth where there is none to speak of; a correction renders every view two times or more and looks up
  * each one's distance at the points of a band.
  */
 FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const PreparedViews& views,

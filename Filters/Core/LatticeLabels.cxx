@@ -199,7 +199,7 @@ void LatticeLabels::labelByVotes(const std::vector<std::uint16_t>& votes, Execut
   }
   else
   {
-    this->setSurvivors(leafCells(this->octree(), OctantState::Intersection, execution));
+    this->setSurvivors(leafCells(this->octree(), OctantState::Intersection, execution), execution);
   }
   const int required = this->octree().viewCount - this->octree().backgroundVotes;
   resizeSideBySide(this->Support, votes.size(), execution);
@@ -221,7 +221,8 @@ LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const Surf
   , Inside(Shell.corners.size(), Unknown)
   , Support(Shell.corners.size(), 0.0f)
 {
-  this->setSurvivors(leafCells(octree, OctantState::Intersection));
+  Execution alone;
+  this->setSurvivors(leafCells(octree, OctantState::Intersection, alone), alone);
   this->fromOctree();
   const auto label = [&](std::ptrdiff_t corner, std::uint8_t value)
   {
@@ -246,7 +247,7 @@ LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const Bric
   : Far(octree, &field)
   , Shell(std::move(shell))
 {
-  this->setSurvivors(leafCells(octree, OctantState::Intersection, execution));
+  this->setSurvivors(leafCells(octree, OctantState::Intersection, execution), execution);
   resizeSideBySide(this->Inside, this->Shell.corners.size(), execution);
   resizeSideBySide(this->Support, this->Shell.corners.size(), execution);
   const auto& corners = this->Shell.corners;
@@ -307,18 +308,22 @@ void LatticeLabels::spread(const SurfaceCrossings& crossings)
   }
 }
 
-void LatticeLabels::setSurvivors(const std::vector<std::uint64_t>& cells)
+void LatticeLabels::setSurvivors(const std::vector<std::uint64_t>& cells, Execution& execution)
 {
   this->Survivor.assign(this->Shell.cells.size(), 0);
-  auto next = cells.begin();
-  for (std::size_t cell = 0; cell < this->Shell.cells.size(); ++cell)
-  {
-    while (next != cells.end() && *next < this->Shell.cells[cell])
+  execution.forRanges(this->Shell.cells.size(), 4096,
+    [&](std::size_t first, std::size_t last)
     {
-      ++next;
-    }
-    this->Survivor[cell] = next != cells.end() && *next == this->Shell.cells[cell];
-  }
+      auto next = std::lower_bound(cells.begin(), cells.end(), this->Shell.cells[first]);
+      for (std::size_t cell = first; cell < last; ++cell)
+      {
+        while (next != cells.end() && *next < this->Shell.cells[cell])
+        {
+          ++next;
+        }
+        this->Survivor[cell] = next != cells.end() && *next == this->Shell.cells[cell];
+      }
+    });
 }
 
 void LatticeLabels::widen(CornerShell shell, Execution& execution)
@@ -355,7 +360,7 @@ void LatticeLabels::widen(CornerShell shell, Execution& execution)
   this->Shell = std::move(shell);
   this->Inside = std::move(inside);
   this->Support = std::move(support);
-  this->setSurvivors(survivors);
+  this->setSurvivors(survivors, execution);
 }
 
 void LatticeLabels::fromOctree()

@@ -76,7 +76,7 @@ public:
   LatticeLabels(const Octree& octree, CornerShell shell, const BrickField& field, Execution& execution);
 
   /** Take these cells (Morton codes, ascending) for the survivors, instead of the octree's intersection octants. */
-  void setSurvivors(const std::vector<std::uint64_t>& cells);
+  void setSurvivors(const std::vector<std::uint64_t>& cells, Execution& execution);
 
   const Octree& octree() const { return this->Far.octree(); }
   const BrickField* field() const { return this->Far.field(); }

@@ -90,7 +90,7 @@ void labelInside(LatticeLabels& labels, const std::vector<std::uint64_t>& points
   {
     return;
   }
-  const auto missing = cellsMissingAround(labels.shell(), points);
+  const auto missing = cellsMissingAround(labels.shell(), points, execution);
   if (!missing.empty())
   {
     labels.widen(withCells(labels.shell(), missing, execution), execution);
@@ -199,7 +199,7 @@ void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const 
 {
   const Lattice& lattice = labels.octree().lattice;
   std::optional<CornerShell> extended;
-  const auto missing = cellsMissingAround(labels.shell(), added);
+  const auto missing = cellsMissingAround(labels.shell(), added, execution);
   if (!missing.empty())
   {
     extended = withCells(labels.shell(), missing, execution);

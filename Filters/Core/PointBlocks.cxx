@@ -32,18 +32,15 @@ struct Part
   BlockWord word;
 };
 
-/** The points that leave a block on an axis, in the block there. */
+/** The points that leave a block by a step on an axis, in the block there. */
 template <typename Add>
-void addBeyond(const BlockWord& block, int axis, const Add& add)
+void addBeyond(const BlockWord& block, int axis, bool ahead, const Add& add)
 {
-  for (const bool ahead : { true, false })
+  const std::uint64_t there = ahead ? fromBehind(0, block.bits, axis) : fromAhead(0, block.bits, axis);
+  std::uint64_t other = 0;
+  if (there != 0 && besideBlock(block.block, axis, ahead, other))
   {
-    const std::uint64_t there = ahead ? fromBehind(0, block.bits, axis) : fromAhead(0, block.bits, axis);
-    std::uint64_t other = 0;
-    if (there != 0 && besideBlock(block.block, axis, ahead, other))
-    {
-      add(Part{ { other, there } });
-    }
+    add(Part{ { other, there } });
   }
 }
 
@@ -81,7 +78,20 @@ PointBlocks PointBlocks::spread(int axis, Execution& execution) const
   const auto forParts = [axis](const BlockWord& block, const auto& add)
   {
     add(Part{ { block.block, spreadInBlock(block.bits, axis) } });
-    addBeyond(block, axis, add);
+    addBeyond(block, axis, true, add);
+    addBeyond(block, axis, false, add);
+  };
+  PointBlocks result;
+  result.Blocks = joinedParts(this->Blocks, forParts, execution);
+  return result;
+}
+
+PointBlocks PointBlocks::spreadBehind(int axis, Execution& execution) const
+{
+  const auto forParts = [axis](const BlockWord& block, const auto& add)
+  {
+    add(Part{ { block.block, block.bits | fromAhead(block.bits, 0, axis) } });
+    addBeyond(block, axis, false, add);
   };
   PointBlocks result;
   result.Blocks = joinedParts(this->Blocks, forParts, execution);
@@ -96,7 +106,8 @@ PointBlocks PointBlocks::beside(const Lattice& lattice, Execution& execution) co
     for (int axis = 0; axis < 3; ++axis)
     {
       within |= fromAhead(block.bits, 0, axis) | fromBehind(block.bits, 0, axis);
-      addBeyond(block, axis, add);
+      addBeyond(block, axis, true, add);
+      addBeyond(block, axis, false, add);
     }
     add(Part{ { block.block, within } });
   };

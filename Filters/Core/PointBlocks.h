@@ -29,6 +29,8 @@ public:
   PointBlocks beside(const Lattice& lattice, Execution& execution) const;
   /** These points and those one step before and behind on an axis, none of which is negative. Cost: as beside(). */
   PointBlocks spread(int axis, Execution& execution) const;
+  /** These points and those one step behind: of a point's, on all axes one after another, come the cells around it. */
+  PointBlocks spreadBehind(int axis, Execution& execution) const;
   /** Take the other set's points out. Cost: linear in the blocks. */
   void remove(const PointBlocks& other, Execution& execution);
 

@@ -8,6 +8,7 @@
 #include "IndicesWhere.h"
 #include "LabelCache.h"
 #include "LatticeRegions.h"
+#include "PointBlocks.h"
 #include "VotingMarchingCubes.h"
 
 #include <algorithm>
@@ -162,26 +163,19 @@ std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLa
   return cells;
 }
 
-/** Those of the eight cells around each of the given points, none of which is on the border, for which `isWanted(cell)` holds; ascending, each once. */
-template <typename IsWanted>
-std::vector<std::uint64_t> cellsAround(const std::vector<std::uint64_t>& points, const IsWanted& isWanted)
+/** The eight cells around each of the given points, none of which is on the border; ascending, each once. */
+std::vector<std::uint64_t> cellsAround(std::vector<std::uint64_t> points, Execution& execution)
 {
-  std::vector<std::uint64_t> cells;
-  for (const std::uint64_t point : points)
+  if (!std::is_sorted(points.begin(), points.end()))
   {
-    const CodesAround codes(fromMorton(point));
-    for (int n = 0; n < 8; ++n)
-    {
-      const LatticePoint o = cornerOffset(n);
-      const std::uint64_t cell = codes[o.i + 3 * o.j + 9 * o.k];
-      if (isWanted(cell))
-      {
-        cells.push_back(cell);
-      }
-    }
+    std::sort(points.begin(), points.end());
   }
-  sortUnique(cells);
-  return cells;
+  PointBlocks cells(points, execution);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    cells = cells.spreadBehind(axis, execution);
+  }
+  return cells.points(execution);
 }
 
 LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const PreparedViews& views, const CorrectedCapture& capture,
@@ -193,15 +187,21 @@ LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const Prepared
 
 } // namespace
 
-std::vector<std::uint64_t> cellsMissingAround(const CornerShell& shell, const std::vector<std::uint64_t>& points)
+std::vector<std::uint64_t> cellsMissingAround(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
 {
-  CodeCursor known(shell.cells);
-  return cellsAround(points, [&](std::uint64_t cell) { return known.find(cell) < 0; });
+  const std::vector<std::uint64_t> cells = cellsAround(points, execution);
+  const auto isMissing = [&] { return [&, known = CodeCursor(shell.cells)](std::size_t n) mutable { return known.find(cells[n]) < 0; }; };
+  std::vector<std::uint64_t> missing;
+  for (const std::int32_t n : indicesWhereTests(cells.size(), 4096, execution, isMissing))
+  {
+    missing.push_back(cells[std::size_t(n)]);
+  }
+  return missing;
 }
 
 CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)
 {
-  return withCells(shell, cellsMissingAround(shell, points), execution);
+  return withCells(shell, cellsMissingAround(shell, points, execution), execution);
 }
 
 CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, const CornerShell& shell, const PreparedViews& views,
@@ -257,7 +257,7 @@ LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std
   {
     cells = united(united(cells, field->mixedCells(execution)), disputedCells(base, *field, execution));
   }
-  cells = united(cells, cellsAround(points, [](std::uint64_t) { return true; }));
+  cells = united(cells, cellsAround(points, execution));
   // A field tells about all corners, votes about those of a shell.
   const bool isByField = capture.correction.field.has_value();
   LatticeLabels labels = makeLabels(base, isByField ? CornerShell() : makeCornerShell(cells, execution), used, capture, execution);
@@ -267,7 +267,7 @@ LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std
     survivors = united(survivors, disowned);
     labels = makeLabels(base, makeCornerShell(united(cells, disowned), execution), used, capture, execution);
   }
-  labels.setSurvivors(survivors);
+  labels.setSurvivors(survivors, execution);
   dropUnsupported(labels, execution);
   return labels;
 }

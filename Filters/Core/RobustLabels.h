@@ -37,7 +37,7 @@ LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std
   const PreparedViews& views, const CorrectedCapture& capture, Execution& execution);
 
 /** Those of the eight cells around each of the given points, none of which is on the border, that the shell does not hold; ascending, each once. */
-std::vector<std::uint64_t> cellsMissingAround(const CornerShell& shell, const std::vector<std::uint64_t>& points);
+std::vector<std::uint64_t> cellsMissingAround(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution);
 
 /** The shell with these cells. */
 CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution);

@@ -224,7 +224,7 @@ TEST(HandleJoining, DoesWhatOneCornerAfterAnotherDoes)
       }
     }
     LatticeLabels labels(solid.octree, makeCornerShell(cells, solid.execution), solid.field, solid.execution);
-    labels.setSurvivors(survivors);
+    labels.setSurvivors(survivors, solid.execution);
     for (const double deficit : { 0.0, 0.15, 0.5 })
     {
       HandleJoiningOptions options;
@@ -244,7 +244,7 @@ TEST(HandleJoining, JoinsTheEndsOfACutRing)
   for (const int gap : { 1, 2, 3 })
   {
     LabelledSolid solid(5, [&](const LatticePoint& p) { return cutRing(p, gap, 0.3); });
-    solid.labels->setSurvivors({}); // the field alone tells
+    solid.labels->setSurvivors({}, solid.execution); // the field alone tells
     ASSERT_EQ(solid.surface().genus, 0);
     EXPECT_EQ(genusAfter(solid, 0.5, {}), 1) << gap << " corners";
   }
@@ -253,7 +253,7 @@ TEST(HandleJoining, JoinsTheEndsOfACutRing)
 TEST(HandleJoining, LeavesApartWhatTheFieldPartsClearly)
 {
   LabelledSolid solid(5, [](const LatticePoint& p) { return cutRing(p, 2, 0.8); });
-  solid.labels->setSurvivors({});
+  solid.labels->setSurvivors({}, solid.execution);
   EXPECT_EQ(genusAfter(solid, 0.5, {}), 0);
   EXPECT_EQ(genusAfter(solid, 1.0, {}), 1) << "a larger deficit reaches further";
 }

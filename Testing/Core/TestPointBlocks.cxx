@@ -60,7 +60,7 @@ TEST(PointBlocks, NeighboursAreThoseOfThePointsOneByOne)
     EXPECT_EQ(set.beside(lattice, execution).points(execution), std::vector<std::uint64_t>(expected.begin(), expected.end()));
     for (int axis = 0; axis < 3; ++axis)
     {
-      std::set<std::uint64_t> wider = codes;
+      std::set<std::uint64_t> wider = codes, behind = codes;
       for (const std::uint64_t code : codes)
       {
         for (const int step : { -1, 1 })
@@ -69,10 +69,15 @@ TEST(PointBlocks, NeighboursAreThoseOfThePointsOneByOne)
           if (std::min({ q.i, q.j, q.k }) >= 0)
           {
             wider.insert(mortonCode(q));
+            if (step < 0)
+            {
+              behind.insert(mortonCode(q));
+            }
           }
         }
       }
       EXPECT_EQ(set.spread(axis, execution).points(execution), std::vector<std::uint64_t>(wider.begin(), wider.end()));
+      EXPECT_EQ(set.spreadBehind(axis, execution).points(execution), std::vector<std::uint64_t>(behind.begin(), behind.end()));
     }
     // Less some others.
     const auto others = someCodes(lattice, random, count);

@@ -318,8 +318,8 @@ TEST(RobustLabels, TheExtendedShellHasTheEightCellsAroundEachPoint)
   EXPECT_EQ(extendedShell(shell, {}, execution).corners, shell.corners);
   std::vector<std::uint64_t> missing;
   std::set_difference(expected.begin(), expected.end(), shell.cells.begin(), shell.cells.end(), std::back_inserter(missing));
-  EXPECT_EQ(cellsMissingAround(shell, points), missing);
-  EXPECT_TRUE(cellsMissingAround(wide, points).empty());
+  EXPECT_EQ(cellsMissingAround(shell, points, execution), missing);
+  EXPECT_TRUE(cellsMissingAround(wide, points, execution).empty());
 }
 
 TEST(RobustLabels, SameForAnyNumberOfThreadsAndItCanBeCancelled)
