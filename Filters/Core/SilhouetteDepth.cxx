@@ -100,28 +100,36 @@ double SilhouetteDepth::inView(int i, const Vector3& p) const
   return std::clamp(this->Probes[i]->at(u, v) / place.pixelsPerOctant, -this->Reach, this->Reach);
 }
 
-double SilhouetteDepth::operator()(const Vector3& p, double enough) const
+double SilhouetteDepth::operator()(const Vector3& p, double enough, int& first) const
 {
-  const int count = this->Views->size();
+  const int count = this->Views->size(), asked = first;
+  double least = this->Reach;
+  const auto depthOf = [&](int n)
+  {
+    const int view = n == 0 ? asked : n - int(n <= asked); // the first, and the others in their order
+    const double depth = this->inView(view, p);
+    first = depth < least ? view : first;
+    least = std::min(least, depth);
+    return depth;
+  };
   if (this->BackgroundVotes == 0)
   {
-    double least = this->Reach;
-    for (int i = 0; i < count && least > enough; ++i)
+    for (int n = 0; n < count && least > enough; ++n)
     {
-      least = std::min(least, this->inView(i, p));
+      depthOf(n);
     }
     return least;
   }
   std::vector<double> smallest(std::size_t(this->BackgroundVotes) + 1, this->Reach); // ascending
-  for (int i = 0; i < count && smallest.back() > enough; ++i)
+  for (int n = 0; n < count && smallest.back() > enough; ++n)
   {
-    const double depth = this->inView(i, p);
+    const double depth = depthOf(n);
     if (depth < smallest.back())
     {
       smallest.back() = depth;
-      for (std::size_t n = smallest.size() - 1; n > 0 && smallest[n] < smallest[n - 1]; --n)
+      for (std::size_t k = smallest.size() - 1; k > 0 && smallest[k] < smallest[k - 1]; --k)
       {
-        std::swap(smallest[n], smallest[n - 1]);
+        std::swap(smallest[k], smallest[k - 1]);
       }
     }
   }

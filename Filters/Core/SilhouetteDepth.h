@@ -28,7 +28,17 @@ public:
    * Depth in octants of a point in lattice coordinates: the least over the views, but for the k least, of the distance from
    * the silhouette's contour, positive inside. Views that abstain do not count. Once it is known to be at most `enough`, some value that is too.
    */
-  double operator()(const Vector3& p, double enough = -1e300) const;
+  double operator()(const Vector3& p, double enough = -1e300) const
+  {
+    int first = 0;
+    return (*this)(p, enough, first);
+  }
+
+  /**
+   * The same. `first`, a view, is asked first, and becomes the one with the least depth of those that were asked: for the next point near by that is mostly the one
+   * that decides.
+   */
+  double operator()(const Vector3& p, double enough, int& first) const;
 
   const Lattice& lattice() const { return this->Views->lattice(); }
 

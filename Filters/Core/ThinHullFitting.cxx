@@ -43,6 +43,7 @@ public:
    */
   bool surfaceBetween(const Vector3& inside, const Vector3& outside, Vector3& target) const
   {
+    int strictest = 0;
     const Vector3 middle = 0.5 * (inside + outside);
     std::vector<std::int32_t> near;
     this->Tree.overlapping(Box(middle - Vector3::Constant(1.5), middle + Vector3::Constant(1.5)),
@@ -60,7 +61,7 @@ public:
     double before = 0.0, behind = 0.0;
     for (; behind < farthest; before = behind)
     {
-      const double depth = this->depthAt(near, from.centre + behind * heading);
+      const double depth = this->depthAt(near, from.centre + behind * heading, strictest);
       if (depth <= 0.0)
       {
         break;
@@ -70,7 +71,7 @@ public:
     for (int halving = 0; halving < 7; ++halving)
     {
       const double half = 0.5 * (before + behind);
-      (this->depthAt(near, from.centre + half * heading) > 0.0 ? before : behind) = half;
+      (this->depthAt(near, from.centre + half * heading, strictest) > 0.0 ? before : behind) = half;
     }
     target = from.centre + before * heading;
     return true;
@@ -113,10 +114,11 @@ private:
     return best;
   }
 
-  double depthAt(const std::vector<std::int32_t>& hulls, const Vector3& p) const
+  /** `strictest`: a view, as SilhouetteDepth has it. */
+  double depthAt(const std::vector<std::int32_t>& hulls, const Vector3& p, int& strictest) const
   {
     const double inHulls = -this->nearest(hulls, p).distance;
-    return this->Depth && inHulls <= 0.0 ? std::max(inHulls, (*this->Depth)(p)) : inHulls;
+    return this->Depth && inHulls <= 0.0 ? std::max(inHulls, (*this->Depth)(p, inHulls, strictest)) : inHulls;
   }
 
   std::vector<ThinHull> Hulls;

@@ -23,9 +23,10 @@ Witness findWitness(const SilhouetteDepth& depth, const LatticePoint& cell, int 
 {
   const Vector3 low = toVector(cell);
   Witness best;
+  int strictest = 0;
   const auto take = [&](const Vector3& p)
   {
-    const double d = depth(p, best.depth);
+    const double d = depth(p, best.depth, strictest);
     best = d > best.depth ? Witness{ p, d } : best;
   };
   for (int n = 0; n < side * side * side; ++n)

@@ -95,7 +95,7 @@ TEST(SilhouetteDepth, MayStopAtEnough)
   for (const int votes : { 0, 1 })
   {
     const SilhouetteDepth depth(views, votes, 3.0, execution);
-    int stopped = 0;
+    int stopped = 0, first = 0;
     for (int n = 0; n < 500; ++n)
     {
       const Vector3 p(random.uniform(0, 32), random.uniform(0, 32), random.uniform(0, 32));
@@ -103,6 +103,16 @@ TEST(SilhouetteDepth, MayStopAtEnough)
       EXPECT_GE(some, whole);
       EXPECT_EQ(some <= -0.5, whole <= -0.5) << p.transpose();
       EXPECT_TRUE(whole <= -0.5 || some == whole) << p.transpose();
+      for (const int before : { 0, 1, 2 }) // whichever is asked first
+      {
+        first = before;
+        const double other = depth(p, -0.5, first);
+        EXPECT_EQ(other <= -0.5, whole <= -0.5) << p.transpose();
+        EXPECT_TRUE(whole <= -0.5 || other == whole) << p.transpose();
+        ASSERT_TRUE(first >= 0 && first < views.size());
+        int again = first;
+        EXPECT_LE(depth(p, -1e300, again), other);
+      }
       stopped += some != whole;
     }
     EXPECT_GT(stopped, 10) << votes;
