@@ -98,7 +98,7 @@ public:
     , Map(frame)
     , Limit(int(std::ceil(frame.reach)) + 1)
     , Width(frame.lastColumn + 1)
-    , Columns(frame.spacing, this->Limit - 1)
+    , Columns(frame.spacing, this->Limit - 1, this->pieces())
   {
     this->sweepColumns();
   }
@@ -212,14 +212,34 @@ private:
     this->Tiles.resize(std::size_t((this->Width + TileSize - 1) / TileSize));
     for (std::size_t tile = 0; tile < this->Tiles.size(); ++tile)
     {
-      const int first = int(tile) * TileSize, end = std::min(first + TileSize, this->Width);
-      bool alike = true;
-      for (int c = first; c < end; ++c)
-      {
-        alike = alike & (pixels[c] == pixels[first]) & (inColumn[c] == this->Limit);
-      }
-      this->Tiles[tile] = alike ? pixels[first] : Mixed;
+      const int first = int(tile) * TileSize;
+      const bool isWhole = first + TileSize <= this->Width;
+      this->Tiles[tile] = isWhole ? this->kindOfTile(pixels + first, inColumn + first) : this->kindOf(pixels + first, inColumn + first, this->Width - first);
     }
+  }
+
+  /** The kind of some pixels that all are of, all within reach in their columns, or Mixed. */
+  std::uint8_t kindOf(const std::uint8_t* pixels, const std::int16_t* inColumn, int count) const
+  {
+    const bool alike = std::all_of(pixels, pixels + count, [&](std::uint8_t pixel) { return pixel == *pixels; }) &&
+      std::all_of(inColumn, inColumn + count, [this](std::int16_t distance) { return distance == this->Limit; });
+    return alike ? *pixels : Mixed;
+  }
+
+  /** The same of TileSize, by words. */
+  std::uint8_t kindOfTile(const std::uint8_t* pixels, const std::int16_t* inColumn) const
+  {
+    static_assert(TileSize == 16, "two words of pixels, four of distances");
+    constexpr std::uint64_t Ones = 0x0101010101010101ULL, Places = 0x0001000100010001ULL;
+    const std::uint64_t first = wordAt(pixels), second = wordAt(pixels + 8);
+    std::uint64_t distances[4], nearer = 0;
+    std::memcpy(distances, inColumn, sizeof distances);
+    for (const std::uint64_t word : distances)
+    {
+      nearer |= word ^ (Places * std::uint64_t(this->Limit));
+    }
+    const bool none = (first | second) == 0, all = (first & second) == Ones;
+    return nearer == 0 && (none || all) ? std::uint8_t(all) : Mixed;
   }
 
   /** The kind of everything within reach of a piece of the classified row, or Mixed. */
@@ -259,7 +279,7 @@ private:
     {
       squares[kind].columns.resize(std::size_t(length));
       squares[kind].groups.resize(std::size_t(length));
-      squareColumns(pixels, kind, from - begin, Square(this->Limit * this->Limit), this->Columns.isDense(), squares[kind]);
+      squareColumns(pixels, kind, from - begin, Square(this->Limit * this->Limit), this->Columns, squares[kind]);
     }
   }
 

@@ -96,7 +96,7 @@ template <typename Square>
 /** `before` columns of the limit's square come first; after the row's last column that one goes on. */
 template <typename Square>
 [[gnu::always_inline]] inline void squareKind(
-  const RowPixels& row, std::uint8_t kind, int before, Square limit, bool inGroups, RowSquares<Square>& squares)
+  const RowPixels& row, std::uint8_t kind, int before, Square limit, const PieceColumns& columns, RowSquares<Square>& squares)
 {
   const int length = int(squares.columns.size());
   std::fill_n(squares.columns.begin(), before, limit);
@@ -108,7 +108,8 @@ template <typename Square>
   }
   // Beyond the image the last column goes on; that is no nearer to any pixel of it.
   std::fill(own + row.count, squares.columns.data() + length, own[row.count - 1]);
-  if (inGroups)
+  columns.arrange(squares);
+  if (columns.isDense())
   {
     leastOfGroups(squares.columns.data(), length, squares.groups.data());
   }
@@ -116,11 +117,10 @@ template <typename Square>
 
 /** Distances of a piece's samples if they are of one kind; its columns begin `first` into the row's. */
 template <typename Square>
-[[gnu::always_inline]] inline void measureKind(int first, const PieceColumns& columns, RowSquares<Square>& squares, float* distances)
+[[gnu::always_inline]] inline void measureKind(int first, const PieceColumns& columns, const RowSquares<Square>& squares, float* distances)
 {
   Square best[TileSize];
-  leastSquares(
-    columns.arrange(squares.columns.data() + first, squares.arranged), columns, squares.groups.data() + first, best);
+  leastSquares(columns.ofPiece(squares, first), columns, squares.groups.data() + first, best);
   for (int c = 0; c < TileSize; ++c)
   {
     distances[c] = std::sqrt(float(best[c])) - 0.5f;
@@ -130,23 +130,23 @@ template <typename Square>
 } // namespace
 
 SILHOUETTE_VECTORISED void squareColumns(
-  const RowPixels& row, std::uint8_t kind, int before, std::int16_t limit, bool inGroups, RowSquares<std::int16_t>& squares)
+  const RowPixels& row, std::uint8_t kind, int before, std::int16_t limit, const PieceColumns& columns, RowSquares<std::int16_t>& squares)
 {
-  squareKind(row, kind, before, limit, inGroups, squares);
+  squareKind(row, kind, before, limit, columns, squares);
 }
 
 SILHOUETTE_VECTORISED void squareColumns(
-  const RowPixels& row, std::uint8_t kind, int before, std::int32_t limit, bool inGroups, RowSquares<std::int32_t>& squares)
+  const RowPixels& row, std::uint8_t kind, int before, std::int32_t limit, const PieceColumns& columns, RowSquares<std::int32_t>& squares)
 {
-  squareKind(row, kind, before, limit, inGroups, squares);
+  squareKind(row, kind, before, limit, columns, squares);
 }
 
-SILHOUETTE_VECTORISED void measurePiece(int first, const PieceColumns& columns, RowSquares<std::int16_t>& squares, float* distances)
+SILHOUETTE_VECTORISED void measurePiece(int first, const PieceColumns& columns, const RowSquares<std::int16_t>& squares, float* distances)
 {
   measureKind(first, columns, squares, distances);
 }
 
-SILHOUETTE_VECTORISED void measurePiece(int first, const PieceColumns& columns, RowSquares<std::int32_t>& squares, float* distances)
+SILHOUETTE_VECTORISED void measurePiece(int first, const PieceColumns& columns, const RowSquares<std::int32_t>& squares, float* distances)
 {
   measureKind(first, columns, squares, distances);
 }

@@ -15,15 +15,25 @@ namespace silhouette
 constexpr int TileSize = 16;      ///< samples of a piece, and pixels that are classified together
 constexpr int LongestShort = 127; ///< px: two squares of distances up to here add up within sixteen bits
 
-/** How the samples of a piece of a row, TileSize of them, find the columns around them in a buffer of squares. */
+/** For pixels of one kind of a row: the squares of the distances within the columns, 0 at pixels of the other kind; and the least of groups of them. */
+template <typename Square>
+struct RowSquares
+{
+  std::vector<Square> columns;
+  std::vector<Square> groups;
+  std::vector<Square> arranged; ///< the columns as samples find them that lie apart
+};
+
+/** How the samples of the pieces of a row, each of TileSize, find the columns around them in a buffer of squares that begins `most` columns before the first piece. */
 class PieceColumns
 {
 public:
-  PieceColumns(int spacing, int most)
+  /** For up to `pieces` of a row. */
+  PieceColumns(int spacing, int most, int pieces)
     : Spacing(spacing)
     , Most(most)
     , Before((most + spacing - 1) / spacing)
-    , Lane(TileSize + 2 * this->Before + 1)
+    , Lane(pieces * TileSize + 2 * this->Before + 1)
   {
     for (int d = -most; d <= most; ++d)
     {
@@ -40,25 +50,31 @@ public:
   /** Where the columns begin that are `d` off each sample, in the order of the samples. */
   int offset(int d) const { return this->Offsets[std::size_t(d + this->Most)]; }
 
-  /** Columns in the samples' order: those that are equally far off a sample lie side by side. */
+  /** The columns of a row in the samples' order: those that are equally far off a sample lie side by side. */
   template <typename Square>
-  const Square* arrange(const Square* columns, std::vector<Square>& arranged) const
+  void arrange(RowSquares<Square>& squares) const
   {
-    if (this->Spacing == 1)
+    if (this->isDense())
     {
-      return columns;
+      return;
     }
-    arranged.resize(std::size_t(this->Spacing * this->Lane));
+    squares.arranged.resize(std::size_t(this->Spacing * this->Lane));
     for (int rest = 0; rest < this->Spacing; ++rest)
     {
-      Square* const lane = &arranged[std::size_t(rest * this->Lane)];
+      Square* const lane = &squares.arranged[std::size_t(rest * this->Lane)];
       const int first = this->Most + rest - this->Before * this->Spacing; // of the lane's first column; may be missing
-      for (int n = first < 0 ? 1 : 0; n < this->Lane && first + n * this->Spacing < this->length(); ++n)
+      for (int n = first < 0 ? 1 : 0; n < this->Lane && first + n * this->Spacing < int(squares.columns.size()); ++n)
       {
-        lane[n] = columns[first + n * this->Spacing];
+        lane[n] = squares.columns[std::size_t(first + n * this->Spacing)];
       }
     }
-    return arranged.data();
+  }
+
+  /** Those of a piece, whose columns begin `first` into the row's, as offset() counts. */
+  template <typename Square>
+  const Square* ofPiece(const RowSquares<Square>& squares, int first) const
+  {
+    return this->isDense() ? squares.columns.data() + first : squares.arranged.data() + first / this->Spacing;
   }
 
 private:
@@ -67,15 +83,6 @@ private:
   int Before; ///< samples before the first and after the last that hold `most` columns
   int Lane;   ///< length of a lane: columns of one remainder by the spacing
   std::vector<int> Offsets;
-};
-
-/** For pixels of one kind of a row: the squares of the distances within the columns, 0 at pixels of the other kind; and the least of groups of them. */
-template <typename Square>
-struct RowSquares
-{
-  std::vector<Square> columns;
-  std::vector<Square> groups;
-  std::vector<Square> arranged; ///< those of one piece, as the samples find them
 };
 
 /** Some pixels of a row, and their distances within the columns. */
@@ -87,19 +94,17 @@ struct RowPixels
 };
 
 /**
- * Squares for one kind of pixels, 0 or 1; the vectors have their lengths. `before` columns of the limit's square come first; after the row's last column that
- * one goes on. `inGroups`: the groups too.
+ * Squares for one kind of pixels, 0 or 1; columns and groups have their lengths. `before` columns of the limit's square come first; after the row's last column that
+ * one goes on.
  */
-void squareColumns(
-  const RowPixels& row, std::uint8_t kind, int before, std::int16_t limit, bool inGroups, RowSquares<std::int16_t>& squares);
-void squareColumns(
-  const RowPixels& row, std::uint8_t kind, int before, std::int32_t limit, bool inGroups, RowSquares<std::int32_t>& squares);
+void squareColumns(const RowPixels& row, std::uint8_t kind, int before, std::int16_t limit, const PieceColumns& columns, RowSquares<std::int16_t>& squares);
+void squareColumns(const RowPixels& row, std::uint8_t kind, int before, std::int32_t limit, const PieceColumns& columns, RowSquares<std::int32_t>& squares);
 
 /**
  * Distances, px, of a piece's samples if they are of the squares' kind, to the contour half a pixel before the nearest of the other kind; its columns begin
  * `first` into the row's. Cost: up to the distance itself, in vectors.
  */
-void measurePiece(int first, const PieceColumns& columns, RowSquares<std::int16_t>& squares, float* distances);
-void measurePiece(int first, const PieceColumns& columns, RowSquares<std::int32_t>& squares, float* distances);
+void measurePiece(int first, const PieceColumns& columns, const RowSquares<std::int16_t>& squares, float* distances);
+void measurePiece(int first, const PieceColumns& columns, const RowSquares<std::int32_t>& squares, float* distances);
 
 } // namespace silhouette

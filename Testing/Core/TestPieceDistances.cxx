@@ -41,14 +41,14 @@ struct Row
 template <typename Square>
 void check(const Row& row, int spacing, int most, Square limit)
 {
-  const PieceColumns columns(spacing, most);
+  const PieceColumns columns(spacing, most, Width / (TileSize * spacing) + 1);
   EXPECT_EQ(columns.isDense(), spacing == 1);
   for (const std::uint8_t kind : { 0, 1 })
   {
     RowSquares<Square> squares;
     squares.columns.resize(std::size_t(Width + 2 * most + TileSize * spacing));
     squares.groups.resize(squares.columns.size());
-    squareColumns({ row.pixels.data(), row.inColumn.data(), Width }, kind, most, limit, columns.isDense(), squares);
+    squareColumns({ row.pixels.data(), row.inColumn.data(), Width }, kind, most, limit, columns, squares);
     for (int first = 0; first + columns.length() <= int(squares.columns.size()); first += TileSize * spacing)
     {
       float distances[TileSize];
