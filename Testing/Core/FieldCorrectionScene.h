@@ -9,6 +9,9 @@
 #include "SyntheticCapture.h"
 #include "SyntheticShapes.h"
 
+#include <functional>
+#include <utility>
+
 namespace silhouette::test
 {
 
@@ -43,9 +46,16 @@ public:
 
   PreparedViews prepared(bool clean = false) const
   {
+    return this->preparedWhere([clean](std::size_t) { return clean; });
+  }
+
+  /** Some views without noise: those whose numbers `isClean` holds for. */
+  PreparedViews preparedWhere(const std::function<bool(std::size_t)>& isClean) const
+  {
     std::vector<View> views;
     for (const auto& view : this->Views.views)
     {
+      const bool clean = isClean(views.size());
       views.push_back({ view.name, clean ? view.trueProjection : view.projection, clean ? view.cleanMask : view.mask });
     }
     return prepareViews(views);
@@ -94,7 +104,12 @@ inline Capture& captureOf(SyntheticShape shape)
 struct Corrected
 {
   explicit Corrected(const Capture& capture, const FieldCorrectionOptions& options = {}, int depth = Depth)
-    : views(capture.prepared())
+    : Corrected(capture.prepared(), options, depth)
+  {
+  }
+
+  explicit Corrected(PreparedViews prepared, const FieldCorrectionOptions& options = {}, int depth = Depth)
+    : views(std::move(prepared))
   {
     Execution execution;
     const Octree octree = carveViews(this->views, unitCube(1.05), depth);
