@@ -153,4 +153,18 @@ void PointBlocks::dropEmpty(Execution& execution)
     this->Blocks.size(), [this](std::size_t b) { return this->Blocks[b].bits != 0; }, [this](std::size_t b) { return this->Blocks[b]; }, execution);
 }
 
+std::vector<std::uint64_t> cellsAround(std::vector<std::uint64_t> points, Execution& execution)
+{
+  if (!std::is_sorted(points.begin(), points.end()))
+  {
+    std::sort(points.begin(), points.end());
+  }
+  PointBlocks cells(points, execution);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    cells = cells.spreadBehind(axis, execution);
+  }
+  return cells.points(execution);
+}
+
 } // namespace silhouette

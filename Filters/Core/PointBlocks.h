@@ -40,4 +40,7 @@ private:
   std::vector<BlockWord> Blocks; ///< ascending, none without points
 };
 
+/** The eight cells around each of some points (Morton codes, in any order), but for those beyond a point's coordinates of 0; by their lowest corners, ascending, each once. */
+std::vector<std::uint64_t> cellsAround(std::vector<std::uint64_t> points, Execution& execution);
+
 } // namespace silhouette

@@ -163,21 +163,6 @@ std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLa
   return cells;
 }
 
-/** The eight cells around each of the given points, none of which is on the border; ascending, each once. */
-std::vector<std::uint64_t> cellsAround(std::vector<std::uint64_t> points, Execution& execution)
-{
-  if (!std::is_sorted(points.begin(), points.end()))
-  {
-    std::sort(points.begin(), points.end());
-  }
-  PointBlocks cells(points, execution);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    cells = cells.spreadBehind(axis, execution);
-  }
-  return cells.points(execution);
-}
-
 LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const PreparedViews& views, const CorrectedCapture& capture,
   Execution& execution)
 {

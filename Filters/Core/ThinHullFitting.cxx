@@ -8,6 +8,7 @@
 #include "IndicesWhere.h"
 #include "IntersectionsNear.h"
 #include "MovedVolumes.h"
+#include "PointBlocks.h"
 
 #include <algorithm>
 #include <array>
@@ -286,17 +287,13 @@ private:
   std::vector<std::int32_t> movingTriangles() const
   {
     const CornerShell& shell = this->Thin.shell;
-    std::vector<std::uint64_t> cells;
+    std::vector<std::uint64_t> starts; // of the edges
     for (const std::size_t point : this->Points)
     {
       const CrossedEdge& edge = this->Thin.surface.edges[point];
-      for (int n = 0; n < 8; ++n)
-      {
-        const LatticePoint o = cornerOffset(n), inside = fromMorton(shell.corners[edge.inside]), outside = fromMorton(shell.corners[edge.outside]);
-        cells.push_back(mortonCode({ std::min(inside.i, outside.i) - o.i, std::min(inside.j, outside.j) - o.j, std::min(inside.k, outside.k) - o.k }));
-      }
+      starts.push_back(std::min(shell.corners[edge.inside], shell.corners[edge.outside]));
     }
-    sortUnique(cells);
+    const std::vector<std::uint64_t> cells = cellsAround(std::move(starts), this->Run);
     std::vector<std::int32_t> triangles = this->Cells.ofCells(cells);
     triangles.erase(std::remove_if(triangles.begin(), triangles.end(), [&](std::int32_t t) { return !this->moves(std::size_t(t)); }), triangles.end());
     return triangles;

@@ -79,6 +79,19 @@ TEST(PointBlocks, NeighboursAreThoseOfThePointsOneByOne)
       EXPECT_EQ(set.spread(axis, execution).points(execution), std::vector<std::uint64_t>(wider.begin(), wider.end()));
       EXPECT_EQ(set.spreadBehind(axis, execution).points(execution), std::vector<std::uint64_t>(behind.begin(), behind.end()));
     }
+    std::set<std::uint64_t> cells;
+    for (const std::uint64_t code : codes)
+    {
+      for (int n = 0; n < 8; ++n)
+      {
+        const LatticePoint o = cornerOffset(n), p = fromMorton(code), q{ p.i - o.i, p.j - o.j, p.k - o.k };
+        if (std::min({ q.i, q.j, q.k }) >= 0)
+        {
+          cells.insert(mortonCode(q));
+        }
+      }
+    }
+    EXPECT_EQ(cellsAround({ codes.rbegin(), codes.rend() }, execution), std::vector<std::uint64_t>(cells.begin(), cells.end()));
     // Less some others.
     const auto others = someCodes(lattice, random, count);
     for (const std::uint64_t code : others)
