@@ -179,9 +179,9 @@ private:
 
   CornerShell& Shell;
   Execution& Exec;
-  std::vector<BlockWord> Cells;                ///< blocks of cells, ascending
+  std::vector<BlockWord> Cells;           ///< blocks of cells, ascending
   std::vector<std::size_t> FirstCell;     ///< of each block, and the end
-  std::vector<BlockWord> Corners;              ///< blocks of corners, ascending
+  std::vector<BlockWord> Corners;         ///< blocks of corners, ascending
   std::vector<std::uint32_t> FirstCorner; ///< of each block, and the end
   std::vector<std::uint32_t> Target;      ///< for each share of a cell block the block of corners
 };

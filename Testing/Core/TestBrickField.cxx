@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BrickField.h"
 
+#include "BrickTestFields.h"
 #include "CarvingTestCaptures.h"
 
 #include <gtest/gtest.h>
@@ -14,11 +15,6 @@ using namespace silhouette::test;
 namespace
 {
 
-Lattice latticeOf(int depth)
-{
-  return { { Vector3(-1.1, -0.9, -1.0), 2.0 }, depth };
-}
-
 std::vector<std::uint64_t> randomCells(const Lattice& lattice, int count, Random& random)
 {
   std::set<std::uint64_t> cells;
@@ -28,24 +24,6 @@ std::vector<std::uint64_t> randomCells(const Lattice& lattice, int count, Random
     cells.insert(mortonCode({ random.below(n), random.below(n), random.below(n) }));
   }
   return { cells.begin(), cells.end() };
-}
-
-std::vector<std::uint64_t> allCells(const Lattice& lattice)
-{
-  std::vector<std::uint64_t> cells(std::size_t(1) << 3 * lattice.depth);
-  for (std::size_t c = 0; c < cells.size(); ++c)
-  {
-    cells[c] = c;
-  }
-  return cells;
-}
-
-void fill(BrickField& field, const std::function<double(const LatticePoint&)>& value)
-{
-  for (std::size_t n = 0; n < field.size(); ++n)
-  {
-    field.values()[n] = float(value(fromMorton(field.code(n))));
-  }
 }
 
 /** Cells around a sphere's surface, `centre` and `radius` in octants. */

@@ -1,41 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldSmoothing.h"
 
+#include "BrickTestFields.h"
 #include "CarvingTestCaptures.h"
 
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <set>
+#include <algorithm>
+#include <cmath>
 
 using namespace silhouette;
 using namespace silhouette::test;
 
 namespace
 {
-
-Lattice latticeOf(int depth)
-{
-  return { { Vector3(-1.1, -0.9, -1.0), 2.0 }, depth };
-}
-
-std::vector<std::uint64_t> allCells(const Lattice& lattice)
-{
-  std::vector<std::uint64_t> cells(std::size_t(1) << 3 * lattice.depth);
-  for (std::size_t c = 0; c < cells.size(); ++c)
-  {
-    cells[c] = c;
-  }
-  return cells;
-}
-
-void fill(BrickField& field, const std::function<double(const LatticePoint&)>& value)
-{
-  for (std::size_t n = 0; n < field.size(); ++n)
-  {
-    field.values()[n] = float(value(fromMorton(field.code(n))));
-  }
-}
 
 /** What is left of an impulse tells the weights at 0, 1, 2, ... along one axis. */
 std::vector<double> weightsOf(double sigma, int radius)

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Fields in bricks, filled at will, for the tests of fields.
+ */
+#pragma once
+
+#include "BrickField.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace silhouette::test
+{
+
+inline Lattice latticeOf(int depth)
+{
+  return { { Vector3(-1.1, -0.9, -1.0), 2.0 }, depth };
+}
+
+inline std::vector<std::uint64_t> allCells(const Lattice& lattice)
+{
+  std::vector<std::uint64_t> cells(std::size_t(1) << 3 * lattice.depth);
+  for (std::size_t c = 0; c < cells.size(); ++c)
+  {
+    cells[c] = c;
+  }
+  return cells;
+}
+
+inline void fill(BrickField& field, const std::function<double(const LatticePoint&)>& value)
+{
+  for (std::size_t n = 0; n < field.size(); ++n)
+  {
+    field.values()[n] = float(value(fromMorton(field.code(n))));
+  }
+}
+
+} // namespace silhouette::test
