@@ -17,7 +17,7 @@ def compare(*options):
 
 class Compare(unittest.TestCase):
     def test_table(self):
-        done = compare("--cells", "32,64", "--sides", "ours,subpixel,hulls,dense,numpy", "--largest", "numpy:32")
+        done = compare("--cells", "32,64", "--sides", "ours,subpixel,hulls,dense,numpy", "--largest", "numpy:32", "--repeats", "2")
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in done.stdout.splitlines()
                 if line.startswith("| vtk") or line.startswith("| dense") or line.startswith("| numpy")]

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "BrickField.h"
+#include "View.h"
 
 #include <cstdint>
 #include <functional>
