@@ -11,7 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <numeric>
 #include <vector>
 
 namespace silhouette
@@ -24,11 +24,24 @@ struct BlockWord
   std::uint64_t bits;
 };
 
+/** Does another block begin with the n-th of a list of codes, ascending? */
+inline bool beginsBlock(const std::vector<std::uint64_t>& codes, std::size_t n)
+{
+  return n == 0 || codes[n - 1] >> 6 != codes[n] >> 6;
+}
+
+/** The blocks of a list of codes, ascending. */
+inline std::vector<std::uint64_t> blocksOf(const std::vector<std::uint64_t>& codes, Execution& execution)
+{
+  return selected(
+    codes.size(), [&](std::size_t n) { return beginsBlock(codes, n); }, [&](std::size_t n) { return codes[n] >> 6; }, execution);
+}
+
 /** Where each block begins in a list of codes, ascending, and the list's end. */
 inline std::vector<std::size_t> blockStarts(const std::vector<std::uint64_t>& codes, Execution& execution)
 {
   auto starts = selected(
-    codes.size(), [&](std::size_t n) { return n == 0 || codes[n - 1] >> 6 != codes[n] >> 6; }, [](std::size_t n) { return n; }, execution);
+    codes.size(), [&](std::size_t n) { return beginsBlock(codes, n); }, [](std::size_t n) { return n; }, execution);
   starts.push_back(codes.size());
   return starts;
 }

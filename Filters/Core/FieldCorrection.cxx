@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldCorrection.h"
 
+#include "ContourDeficit.h"
 #include "Error.h"
 #include "FieldRefinement.h"
 #include "FieldSmoothing.h"
@@ -49,30 +50,6 @@ void check(const FieldCorrectionOptions& options)
   require(options.hullConvexity >= 0.0, "hull convexity", options.hullConvexity);
 }
 
-/** The mean length of the shifts of the views that say anything. */
-struct TypicalShift
-{
-  double octants = 0.0;
-  double pixels = 0.0;
-
-  TypicalShift(
-    const std::vector<ContourResidual>& residuals, const std::vector<int>& views, const FieldViews& fieldViews)
-  {
-    int count = 0;
-    for (std::size_t n = 0; n < views.size(); ++n)
-    {
-      if (residuals[n].count > 0)
-      {
-        ++count;
-        this->pixels += residuals[n].shift.norm();
-        this->octants += residuals[n].shift.norm() / fieldViews.pixelsPerOctant(views[n]);
-      }
-    }
-    this->pixels /= std::max(count, 1);
-    this->octants /= std::max(count, 1);
-  }
-};
-
 bool allAtMost(const float* values, float most)
 {
   return std::all_of(values, values + BlockPoints, [most](float value) { return value <= most; });
@@ -119,17 +96,6 @@ struct Lengths
   double reach() const { return 4.0 * this->scale; } ///< distances are cut off there
 };
 
-/** Every third view: they tell how wrong the silhouettes are. */
-std::vector<int> someOf(const FieldViews& views)
-{
-  std::vector<int> some;
-  for (int view = 0; view < views.size(); view += 3)
-  {
-    some.push_back(view);
-  }
-  return some;
-}
-
 class Correction
 {
 public:
@@ -139,7 +105,7 @@ public:
     , Length(lengths)
     , Surface(surface)
     , All(views.size())
-    , Some(someOf(views))
+    , Some(everyThirdView(views.size()))
   {
     std::iota(this->All.begin(), this->All.end(), 0);
   }
@@ -447,40 +413,6 @@ void correctOnCoarserLattice(const Mesh& surface, const Lattice& lattice, const 
                                : refinedField(*coarse.field, halvings, cells, RefinedMargin, execution);
 }
 
-/**
- * Residuals of the surface in some views. Half of these come first, by pairs, so that of two cameras which take turns both are among them: where they say that there is nothing near the smallest
- * deficit that counts, the others say nothing.
- */
-std::vector<ContourResidual> firstResiduals(const FieldViews& fieldViews, const Mesh& surface, const std::vector<int>& some, double limit,
-  double smallestDeficit, Execution& execution)
-{
-  constexpr double Near = 1.0 / 3.0; // of the smallest deficit; from a half on, a shift counts as well
-  std::vector<ContourResidual> residuals(some.size());
-  const auto measure = [&](bool later)
-  {
-    std::vector<int> views, places;
-    for (std::size_t n = 0; n < some.size(); ++n)
-    {
-      if ((n / 2 % 2 != 0) == later)
-      {
-        views.push_back(some[n]);
-        places.push_back(int(n));
-      }
-    }
-    const auto measured = contourResiduals(fieldViews, surface, views, limit, execution);
-    for (std::size_t n = 0; n < places.size(); ++n)
-    {
-      residuals[std::size_t(places[n])] = measured[n];
-    }
-  };
-  measure(false);
-  if (some.size() > 2 && typicalResidual(residuals) >= Near * smallestDeficit)
-  {
-    measure(true);
-  }
-  return residuals;
-}
-
 } // namespace
 
 FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const PreparedViews& views,
@@ -494,19 +426,17 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
   }
   const Lengths lengths(lattice);
   FieldViews fieldViews(views, lattice, lengths.reach());
-  const auto some = someOf(fieldViews);
-  const auto residuals = firstResiduals(fieldViews, surface, some, lengths.limit(), options.smallestDeficit, execution);
-  result.deficit = std::max(0.0, typicalResidual(residuals));
-  const TypicalShift shift(residuals, some, fieldViews);
-  result.shift = shift.octants;
+  const ContourDeficit measured(fieldViews, surface, lengths.limit(), options.smallestDeficit, execution);
+  result.deficit = measured.octants;
+  result.shift = measured.shift.octants;
   execution.checkpoint(0.3);
   // A surface that some views may dissent from has no deficit: its contours differ from the silhouettes' by design.
   if (result.deficit > options.smallestDeficit ||
     (2.0 * result.deficit > options.smallestDeficit && result.shift > options.smallestShift &&
-      shift.pixels > FinestShift))
+      measured.shift.pixels > FinestShift))
   {
     Phase correcting(execution, 0.3, 1.0);
-    correctOnCoarserLattice(surface, lattice, views, options, residuals, result, correcting);
+    correctOnCoarserLattice(surface, lattice, views, options, measured.residuals, result, correcting);
   }
   execution.progress(1.0);
   return result;

@@ -4,7 +4,7 @@
 #include "Bits.h"
 #include "BlockBits.h"
 #include "BlockRegions.h"
-#include "IndicesWhere.h"
+#include "BlockWords.h"
 
 #include <algorithm>
 
@@ -12,13 +12,6 @@ namespace silhouette
 {
 namespace
 {
-
-/** The blocks of sorted codes of points. */
-std::vector<std::uint64_t> blocksOf(const std::vector<std::uint64_t>& points, Execution& execution)
-{
-  return selected(
-    points.size(), [&](std::size_t n) { return n == 0 || points[n - 1] >> 6 != points[n] >> 6; }, [&](std::size_t n) { return points[n] >> 6; }, execution);
-}
 
 std::vector<std::uint64_t> blocksOf(const BrickField& field)
 {

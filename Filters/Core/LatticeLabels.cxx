@@ -5,6 +5,7 @@
 #include "CodeCursor.h"
 #include "CornerVotes.h"
 #include "FirstTouch.h"
+#include "IndicesWhere.h"
 #include "MarchingCubesTable.h"
 
 #include <Eigen/Geometry>
@@ -247,7 +248,10 @@ LatticeLabels::LatticeLabels(const Octree& octree, CornerShell shell, const Bric
   : Far(octree, &field)
   , Shell(std::move(shell))
 {
-  this->setSurvivors(leafCells(octree, OctantState::Intersection, execution), execution);
+  if (!this->Shell.cells.empty())
+  {
+    this->setSurvivors(leafCells(octree, OctantState::Intersection, execution), execution);
+  }
   resizeSideBySide(this->Inside, this->Shell.corners.size(), execution);
   resizeSideBySide(this->Support, this->Shell.corners.size(), execution);
   const auto& corners = this->Shell.corners;
@@ -348,14 +352,8 @@ void LatticeLabels::widen(CornerShell shell, Execution& execution)
         }
       }
     });
-  std::vector<std::uint64_t> survivors;
-  for (std::size_t cell = 0; cell < this->Shell.cells.size(); ++cell)
-  {
-    if (this->Survivor[cell])
-    {
-      survivors.push_back(this->Shell.cells[cell]);
-    }
-  }
+  const std::vector<std::uint64_t> survivors = selected(
+    this->Shell.cells.size(), [this](std::size_t cell) { return this->Survivor[cell] != 0; }, [this](std::size_t cell) { return this->Shell.cells[cell]; }, execution);
   this->Blocks.reset();
   this->Shell = std::move(shell);
   this->Inside = std::move(inside);

@@ -43,7 +43,8 @@ NearestBall nearestBall(const ThinHull& hull, const Vector3& point);
 /**
  * The hulls of the balls in neighbouring covered octants (26-neighbourhood), and of these with the ordinary survivors next to them, so
  * that thin parts join the solid. `cells` are the shell cells of `labels` that had no inside corner before covering, ascending. A ball lies
- * where its octant is deepest in the silhouettes. Throws InvalidInput, Cancelled. Cost: about 4000 look-ups in distance maps an octant.
+ * where its octant is deepest in the silhouettes. Throws InvalidInput, Cancelled. Cost: some 80 places an octant, each looked up in the distance
+ * maps of as many views as it takes to find one that says less than the best place so far.
  */
 std::vector<ThinHull> thinHulls(const LatticeLabels& labels, const std::vector<std::uint32_t>& cells,
   const SilhouetteDepth& depth, const ThinHullOptions& options, Execution& execution);

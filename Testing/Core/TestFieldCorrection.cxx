@@ -91,30 +91,6 @@ TEST(FieldCorrection, CleanSilhouettesAreTakenAsTheyAre)
   }
 }
 
-TEST(FieldCorrection, TheDeficitIsThatOfEveryThirdViewOrOfHalfOfTheseWhereThereIsNone)
-{
-  Execution execution;
-  Capture& capture = captureOf(SyntheticShape::Torus);
-  capture.draw(1.2, 0, 3);
-  const auto deficitOf = [&](const Corrected& corrected, const std::vector<int>& views)
-  {
-    const FieldViews fieldViews(corrected.views, corrected.lattice, 4.0);
-    return typicalResidual(contourResiduals(fieldViews, corrected.exact, views, 3.0, execution));
-  };
-  for (const std::size_t noisy : { 0, 1 }) // of two cameras that take turns
-  {
-    const Corrected one(capture.preparedWhere([&](std::size_t view) { return view % 2 != noisy; }));
-    EXPECT_TRUE(one.correction.field) << noisy;
-    EXPECT_EQ(one.correction.deficit, deficitOf(one, { 0, 3, 6, 9, 12, 15, 18, 21 })) << noisy;
-  }
-  FieldCorrectionOptions options;
-  options.smallestDeficit = 0.1; // of which the clean capture, of few pixels, has a quarter
-  const Corrected clean(capture.prepared(true), options);
-  EXPECT_FALSE(clean.correction.field);
-  EXPECT_EQ(clean.correction.deficit, std::max(0.0, deficitOf(clean, { 0, 3, 12, 15 })));
-  EXPECT_NE(clean.correction.deficit, std::max(0.0, deficitOf(clean, { 0, 3, 6, 9, 12, 15, 18, 21 })));
-}
-
 TEST(FieldCorrection, UnderContourNoiseTheFieldIsNearerToTheCleanHull)
 {
   Execution execution;
