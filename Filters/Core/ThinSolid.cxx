@@ -66,13 +66,14 @@ bool ThinSolid::surfaceBetween(const Vector3& inside, const Vector3& outside, Ve
   const Vector3 heading = ray / length;
   const double farthest = length + 0.3;
   double before = 0.0, behind = 0.0;
-  for (; behind < farthest; before = behind)
+  while (behind < farthest)
   {
     const double depth = this->depthAt(near, from.centre + behind * heading, strictest);
     if (depth <= 0.0)
     {
       break;
     }
+    before = behind;
     behind += std::max(0.8 * depth, 0.02);
   }
   for (int halving = 0; halving < 7; ++halving)

@@ -28,7 +28,37 @@ ThinHull hullOf(const Vector3& a, const Vector3& b, double radius)
   return hull;
 }
 
+double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b)
+{
+  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (p - a - t * (b - a)).norm();
+}
+
 } // namespace
+
+TEST(ThinSolid, TheSurfaceLiesOnTheHullOnTheWayToThePointBeyond)
+{
+  Random random(3);
+  const double radius = 0.4;
+  int beyond = 0;
+  for (int trial = 0; trial < 200; ++trial)
+  {
+    const Vector3 inside(10 + random.below(5), 11 + random.below(5), 12 + random.below(5));
+    const Vector3 outside = inside + Vector3::Unit(random.below(3)) * (random.below(2) == 0 ? 1.0 : -1.0);
+    const Vector3 a = inside + Vector3(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3));
+    const Vector3 b = a + Vector3(random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8), 0.9);
+    const ThinSolid solid({ hullOf(a, b, radius) }, TheLattice, nullptr);
+    Vector3 target;
+    ASSERT_TRUE(solid.surfaceBetween(inside, outside, target)) << trial;
+    EXPECT_LE(distanceToSegment(target, a, b), radius + 1e-6) << trial;
+    // Seven halvings; but no further than 0.3 octants behind the point.
+    const bool isBeyond = (target - inside - 0.85 * (outside - inside)).norm() > 0.29;
+    EXPECT_TRUE(isBeyond || distanceToSegment(target, a, b) >= radius - 0.01) << trial;
+    beyond += isBeyond && distanceToSegment(target, a, b) < radius - 0.01;
+    EXPECT_TRUE(solid.isBetter(target, inside)); // without silhouettes, always
+  }
+  EXPECT_LT(beyond, 10);
+}
 
 TEST(ThinSolid, NoHullIsNearOrAnotherOneIs)
 {
