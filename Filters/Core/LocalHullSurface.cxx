@@ -9,6 +9,7 @@
 #include "LatticeSurface.h"
 #include "MeshComponents.h"
 #include "RobustLabels.h"
+#include "SurvivorBridges.h"
 #include "SurvivorCovering.h"
 #include "ThesisHullSurface.h"
 #include "ThinHullFitting.h"
@@ -55,11 +56,12 @@ std::vector<std::uint64_t> codesOf(const CornerShell& shell, const std::vector<s
   return codes;
 }
 
-/** The shell of the survivors and what bridges their components. */
+/** The shell of the survivors, their components and what bridges these. */
 struct Survivors
 {
   const Octree& octree;
   CornerShell shell;
+  std::uint64_t components; ///< before they are bridged
   std::vector<Bridge> bridges;
   std::vector<std::uint64_t> bridgePoints;
 
@@ -67,8 +69,10 @@ struct Survivors
   Survivors(const Octree& carved, CornerShell intersection, int bridgeGap, Execution& execution)
     : octree(carved)
     , shell(std::move(intersection))
-    , bridges(bridgeSurvivors(carved, this->shell, bridgeGap, execution))
   {
+    BlockRegions connected = connectSurvivors(carved, execution);
+    this->components = connected.count();
+    this->bridges = bridgeSurvivors(carved.lattice, this->shell, connected, bridgeGap, execution);
     for (const auto& bridge : this->bridges)
     {
       this->bridgePoints.insert(this->bridgePoints.end(), bridge.begin(), bridge.end());
@@ -271,7 +275,7 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
   Phase contouring(execution, 0.4, 1.0);
   makeSurface(labels, survivors, covering, place, added, latticeViews ? &*latticeViews : nullptr, options, surface, contouring);
   return !labels.field() || !options.fillCavities ||
-    countComponents(surface.mesh, execution) <= countSurvivorComponents(survivors.octree, execution);
+    countComponents(surface.mesh, execution) <= survivors.components;
 }
 
 /** Nothing corrected, and nothing given up. */

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurvivorBridges.h"
 
-#include "LatticeRegions.h"
-
 #include <algorithm>
 #include <unordered_map>
 
@@ -16,8 +14,8 @@ class BridgeSearch
 {
 public:
   /** `numbers`: for each corner of the shell one that is in the set of its component. */
-  BridgeSearch(const Octree& octree, const CornerShell& shell, const std::vector<std::uint32_t>& numbers, BlockRegions& survivors)
-    : TheLattice(octree.lattice)
+  BridgeSearch(const Lattice& lattice, const CornerShell& shell, const std::vector<std::uint32_t>& numbers, BlockRegions& survivors)
+    : TheLattice(lattice)
     , Shell(shell)
     , Numbers(numbers)
     , Survivors(survivors)
@@ -108,15 +106,11 @@ std::vector<std::uint32_t> componentsOfCorners(const CornerShell& shell, BlockRe
 
 } // namespace
 
-std::vector<Bridge> bridgeSurvivors(const Octree& octree, const CornerShell& shell, int gap, Execution& execution)
+std::vector<Bridge> bridgeSurvivors(
+  const Lattice& lattice, const CornerShell& shell, BlockRegions& survivors, int gap, Execution& execution)
 {
   std::vector<Bridge> bridges;
-  if (gap <= 0)
-  {
-    return bridges;
-  }
-  BlockRegions survivors = connectSurvivors(octree, execution);
-  if (survivors.count() < 2)
+  if (gap <= 0 || survivors.count() < 2)
   {
     return bridges;
   }
@@ -136,7 +130,7 @@ std::vector<Bridge> bridgeSurvivors(const Octree& octree, const CornerShell& she
   }
   std::stable_sort(components.begin(), components.end(),
     [](const auto& a, const auto& b) { return a.size() < b.size(); });
-  BridgeSearch search(octree, shell, numbers, survivors);
+  BridgeSearch search(lattice, shell, numbers, survivors);
   for (std::size_t c = 0; c + 1 < components.size(); ++c)
   {
     Bridge bridge = search.find(components[c], gap);

@@ -5,6 +5,7 @@
  */
 #pragma once
 
+#include "BlockRegions.h"
 #include "CornerShell.h"
 
 #include <vector>
@@ -18,8 +19,10 @@ using Bridge = std::vector<std::uint64_t>;
 /**
  * Bridges that join components of the survivors (26-neighbourhood) with a gap of at most `gap` octants, the smallest
  * component first, each to the nearest other one. None touches the root cube's border. `shell` is that of the
- * intersection octants. Cost: the components' corners times the cube of the gap.
+ * intersection octants, `survivors` what connectSurvivors() has found; what is bridged is one there afterwards. Cost: the
+ * components' corners times the cube of the gap.
  */
-std::vector<Bridge> bridgeSurvivors(const Octree& octree, const CornerShell& shell, int gap, Execution& execution);
+std::vector<Bridge> bridgeSurvivors(
+  const Lattice& lattice, const CornerShell& shell, BlockRegions& survivors, int gap, Execution& execution);
 
 } // namespace silhouette

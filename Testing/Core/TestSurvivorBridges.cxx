@@ -28,11 +28,14 @@ TEST(SurvivorBridges, JoinWhatTheGapAllowsAndNoMore)
   Execution execution;
   PreparedViews views;
   const Octree octree = twoBoxes(2.9 / 16.0, views);
-  ASSERT_EQ(countSurvivorComponents(octree, execution), 2u);
   const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
-  EXPECT_TRUE(bridgeSurvivors(octree, shell, 0, execution).empty());
-  EXPECT_TRUE(bridgeSurvivors(octree, shell, 1, execution).empty());
-  const auto bridges = bridgeSurvivors(octree, shell, 2, execution);
+  BlockRegions survivors = connectSurvivors(octree, execution);
+  ASSERT_EQ(survivors.count(), 2u);
+  EXPECT_TRUE(bridgeSurvivors(octree.lattice, shell, survivors, 0, execution).empty());
+  EXPECT_TRUE(bridgeSurvivors(octree.lattice, shell, survivors, 1, execution).empty());
+  EXPECT_EQ(survivors.count(), 2u);
+  const auto bridges = bridgeSurvivors(octree.lattice, shell, survivors, 2, execution);
+  EXPECT_EQ(survivors.count(), 1u);
   ASSERT_EQ(bridges.size(), 1u);
   EXPECT_GE(shell.find(bridges[0].front()), 0);
   EXPECT_GE(shell.find(bridges[0].back()), 0);
