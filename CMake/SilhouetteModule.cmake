@@ -17,6 +17,7 @@ set(SILHOUETTE_VTK_COMPONENTS
   FiltersGeometry
   FiltersHyperTree
   FiltersSources
+  IOCore
   IOGeometry
   IOImage
   IOPLY

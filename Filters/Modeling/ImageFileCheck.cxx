@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageFileCheck.h"
 
+#include "MessageListener.h"
+
+#include "vtkNew.h"
+#include "vtkZLibDataCompressor.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <vector>
 
 namespace silhouette::modeling
 {
@@ -50,63 +57,205 @@ std::uint32_t checksum(const Bytes& bytes, std::size_t first, std::size_t last)
   return ~sum;
 }
 
-/** Width, height, bit depth and colour type of a header chunk that starts at `at`. */
-std::string headerFault(const Bytes& bytes, std::size_t at, std::size_t length)
+struct PngHeader
 {
-  if (length != 13)
+  std::uint32_t width = 0, height = 0;
+  std::uint32_t depth = 0; ///< bits of a channel
+  std::uint32_t colour = 0;
+  std::uint32_t methods[3] = {}; ///< of compression, filters, interlacing
+
+  PngHeader(const Bytes& bytes, std::size_t at)
+      : width(bigEndian(bytes, at)), height(bigEndian(bytes, at + 4)), depth(byteAt(bytes, at + 8)),
+        colour(byteAt(bytes, at + 9)),
+        methods{byteAt(bytes, at + 10), byteAt(bytes, at + 11), byteAt(bytes, at + 12)}
   {
-    return "its header has a wrong length";
   }
-  const std::uint32_t depth = byteAt(bytes, at + 8), colour = byteAt(bytes, at + 9);
-  const bool grey = colour == 0 && (depth == 1 || depth == 2 || depth == 4 || depth == 8 || depth == 16);
-  const bool palette = colour == 3 && (depth == 1 || depth == 2 || depth == 4 || depth == 8);
-  const bool others = (colour == 2 || colour == 4 || colour == 6) && (depth == 8 || depth == 16);
-  const std::uint32_t largest = 1u << 20;
-  const bool size = bigEndian(bytes, at) - 1 < largest && bigEndian(bytes, at + 4) - 1 < largest;
-  const bool methods =
-      byteAt(bytes, at + 10) == 0 && byteAt(bytes, at + 11) == 0 && byteAt(bytes, at + 12) <= 1;
-  return size && methods && (grey || palette || others) ? "" : "its header makes no sense";
+
+  bool isSensible() const
+  {
+    const bool grey =
+        this->colour == 0 && (this->depth == 1 || this->depth == 2 || this->depth == 4 || this->depth == 8 || this->depth == 16);
+    const bool palette =
+        this->colour == 3 && (this->depth == 1 || this->depth == 2 || this->depth == 4 || this->depth == 8);
+    const bool others =
+        (this->colour == 2 || this->colour == 4 || this->colour == 6) && (this->depth == 8 || this->depth == 16);
+    const std::uint32_t largest = 1000000; // libpng's own limit
+    return this->width - 1 < largest && this->height - 1 < largest && this->methods[0] == 0 &&
+           this->methods[1] == 0 && this->methods[2] <= 1 && (grey || palette || others);
+  }
+
+  /** Bytes of a row of so many pixels, with the one that names its filter. */
+  std::size_t rowBytes(std::size_t pixels) const
+  {
+    const std::size_t channels = this->colour == 2 ? 3 : this->colour == 4 ? 2 : this->colour == 6 ? 4 : 1;
+    return 1 + (pixels * channels * this->depth + 7) / 8;
+  }
+};
+
+/** Rows of the same length that follow each other: an image has one such part, an interlaced one up to seven. */
+struct PngRows
+{
+  std::size_t count, bytes;
+};
+
+std::vector<PngRows> rowsOf(const PngHeader& header)
+{
+  if (header.methods[2] == 0)
+  {
+    return {{header.height, header.rowBytes(header.width)}};
+  }
+  static constexpr std::uint32_t passes[7][4] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+                                                 {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}}; // Adam7: first column and row, steps
+  std::vector<PngRows> rows;
+  for (const auto& [column, row, across, down] : passes)
+  {
+    if (header.width > column && header.height > row)
+    {
+      rows.push_back({(header.height - row + down - 1) / down,
+                      header.rowBytes((header.width - column + across - 1) / across)});
+    }
+  }
+  return rows;
 }
 
-std::string pngFault(const Bytes& bytes)
+/** What is wrong with an image's compressed rows. */
+std::string rowsFault(const PngHeader& header, const Bytes& compressed)
 {
-  bool palette = false, pixels = false;
-  std::uint32_t colour = 0;
-  for (std::size_t at = 8; bytes.size() - at >= 12;)
+  const std::vector<PngRows> rows = rowsOf(header);
+  std::size_t size = 0;
+  for (const PngRows& part : rows)
   {
-    const std::size_t length = bigEndian(bytes, at);
-    const Bytes type = bytes.substr(at + 4, 4);
-    if (bytes.size() - at - 12 < length)
+    size += part.count * part.bytes;
+  }
+  constexpr std::size_t most = 1032; // bytes that deflate makes one of
+  Bytes pixels;
+  if (size / most <= compressed.size())
+  {
+    pixels.resize(size);
+    vtkNew<vtkZLibDataCompressor> zlib;
+    const MessageListener quiet({zlib});
+    const std::size_t found =
+        zlib->Uncompress(reinterpret_cast<const unsigned char*>(compressed.data()), compressed.size(),
+                         reinterpret_cast<unsigned char*>(&pixels[0]), size);
+    pixels.resize(quiet.heardError() ? 0 : found);
+  }
+  if (pixels.size() != size)
+  {
+    return "its compressed pixels are damaged, or not as many as its header says";
+  }
+  std::size_t at = 0;
+  for (const PngRows& part : rows)
+  {
+    for (std::size_t row = 0; row < part.count; ++row, at += part.bytes)
     {
-      return "it ends within a chunk";
+      if (byteAt(pixels, at) > 4)
+      {
+        return "a row of its pixels has a filter that there is not";
+      }
     }
-    if (checksum(bytes, at + 4, at + 8 + length) != bigEndian(bytes, at + 8 + length))
+  }
+  return {};
+}
+
+/** Follows the chunks of a PNG file. */
+class PngChunks
+{
+public:
+  explicit PngChunks(const Bytes& bytes) : Content(bytes) {}
+
+  std::string fault()
+  {
+    for (std::size_t at = 8; this->Content.size() - at >= 12;)
     {
-      return "the checksum of its chunk " + type + " is wrong";
+      const std::size_t length = bigEndian(this->Content, at);
+      if (this->Content.size() - at - 12 < length)
+      {
+        return "it ends within a chunk";
+      }
+      const Bytes type = this->Content.substr(at + 4, 4);
+      if (checksum(this->Content, at + 4, at + 8 + length) != bigEndian(this->Content, at + 8 + length))
+      {
+        return "the checksum of its chunk " + type + " is wrong";
+      }
+      const std::string fault = this->chunkFault(type, at + 8, length);
+      if (!fault.empty() || type == "IEND")
+      {
+        return fault;
+      }
+      this->Before = type;
+      at += 12 + length;
     }
-    if ((at == 8) != (type == "IHDR"))
+    return "it ends too soon";
+  }
+
+private:
+  /** What is wrong with a chunk, whose data begin at `at`. */
+  std::string chunkFault(const Bytes& type, std::size_t at, std::size_t length)
+  {
+    if (!std::all_of(type.begin(), type.end(), [](unsigned char c) { return std::isalpha(c) && c < 128; }))
+    {
+      return "one of its chunks has no name";
+    }
+    if (this->Header.has_value() == (type == "IHDR"))
     {
       return "its header is not at its start";
     }
     if (type == "IHDR")
     {
-      const std::string fault = headerFault(bytes, at + 8, length);
-      if (!fault.empty())
+      if (length != 13)
       {
-        return fault;
+        return "its header has a wrong length";
       }
-      colour = byteAt(bytes, at + 17);
+      this->Header.emplace(this->Content, at);
+      return this->Header->isSensible() ? "" : "its header makes no sense";
     }
-    palette |= type == "PLTE";
-    pixels |= type == "IDAT";
+    if (type == "PLTE")
+    {
+      return this->paletteFault(length);
+    }
+    if (type == "IDAT")
+    {
+      if (this->Before != "IDAT" && !this->Pixels.empty())
+      {
+        return "its pixels are not in one place";
+      }
+      this->Pixels.append(this->Content, at, length);
+      return {};
+    }
     if (type == "IEND")
     {
-      return pixels && (palette || colour != 3) ? "" : "it has no pixels or no palette";
+      return this->imageFault();
     }
-    at += 12 + length;
+    const bool mayBeIgnored = std::islower(static_cast<unsigned char>(type[0])) != 0;
+    return mayBeIgnored ? "" : "its chunk " + type + " is of no known kind";
   }
-  return "it ends too soon";
-}
+
+  std::string paletteFault(std::size_t length)
+  {
+    const std::size_t most = this->Header->colour == 3 ? std::size_t(3) << this->Header->depth : 3 * 256;
+    if (this->Palette || !this->Pixels.empty() || length == 0 || length % 3 != 0 || length > most)
+    {
+      return "its palette makes no sense, or is not in its place";
+    }
+    this->Palette = true;
+    return {};
+  }
+
+  std::string imageFault() const
+  {
+    if (this->Pixels.empty() || (this->Header->colour == 3 && !this->Palette))
+    {
+      return "it has no pixels or no palette";
+    }
+    return rowsFault(*this->Header, this->Pixels);
+  }
+
+  const Bytes& Content;
+  std::optional<PngHeader> Header;
+  bool Palette = false;
+  Bytes Pixels; ///< compressed
+  Bytes Before; ///< type of the chunk before
+};
 
 std::string jpegFault(const Bytes& bytes)
 {
@@ -159,7 +308,7 @@ std::string imageFileFault(const std::filesystem::path& file)
   const Bytes bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (bytes.compare(0, 8, "\x89PNG\r\n\x1a\n", 8) == 0)
   {
-    return pngFault(bytes);
+    return PngChunks(bytes).fault();
   }
   if (bytes.compare(0, 3, "\xff\xd8\xff") == 0)
   {

@@ -14,8 +14,9 @@ namespace silhouette::modeling
 
 /**
  * What is wrong with a PNG, JPEG or PNM file, in words; empty where nothing is, or where it is none of these.
- * PNG: every chunk is whole and has its checksum; JPEG: the image has an end; PNM: binary, 8 bits, and of its
- * full length. Cost: the file is read once.
+ * PNG: every chunk is known, whole, in its place and has its checksum, and the pixels are all there; JPEG: the
+ * image has an end; PNM: binary, 8 bits, and of its full length. Cost: the file is read once, a PNG's pixels are
+ * decompressed.
  */
 std::string imageFileFault(const std::filesystem::path& file);
 

@@ -3,9 +3,9 @@
 
 #include "Error.h"
 #include "ImageFileCheck.h"
+#include "MessageListener.h"
 
 #include "vtkBMPReader.h"
-#include "vtkCallbackCommand.h"
 #include "vtkExecutive.h"
 #include "vtkImageData.h"
 #include "vtkJPEGReader.h"
@@ -24,58 +24,10 @@ namespace silhouette::modeling
 namespace
 {
 
-/** Takes down the errors and warnings of a reader and of its executive, which are thereby not printed. */
-class ReaderListener
-{
-public:
-  explicit ReaderListener(vtkAlgorithm* reader)
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback(
-        [](vtkObject*, unsigned long event, void* self, void* text)
-        {
-          auto* listener = static_cast<ReaderListener*>(self);
-          std::string& first = event == vtkCommand::ErrorEvent ? listener->Error : listener->Warning;
-          if (first.empty())
-          {
-            first = text ? static_cast<const char*>(text) : "unknown reason";
-          }
-        });
-    for (vtkObject* object :
-         {static_cast<vtkObject*>(reader), static_cast<vtkObject*>(reader->GetExecutive())})
-    {
-      object->AddObserver(vtkCommand::ErrorEvent, this->Command);
-      object->AddObserver(vtkCommand::WarningEvent, this->Command);
-    }
-  }
-
-  bool heardError() const { return !this->Error.empty(); }
-  std::string error() const { return lastLine(this->Error); }
-  std::string warning() const { return lastLine(this->Warning); }
-
-private:
-  /** A message without the preamble that VTK gives it. */
-  static std::string lastLine(const std::string& text)
-  {
-    const std::size_t end = text.find_last_not_of(" \n\r");
-    if (end == std::string::npos)
-    {
-      return {};
-    }
-    const std::size_t start = text.rfind('\n', end);
-    const std::size_t first = start == std::string::npos ? 0 : start + 1;
-    return text.substr(first, end - first + 1);
-  }
-
-  vtkNew<vtkCallbackCommand> Command;
-  std::string Error;
-  std::string Warning;
-};
-
 template <typename Reader> vtkSmartPointer<vtkImageReader2> readerIfItFits(const char* file)
 {
   auto reader = vtkSmartPointer<Reader>::New();
-  const ReaderListener quiet(reader);
+  const MessageListener quiet({reader, reader->GetExecutive()});
   return reader->CanReadFile(file) ? vtkSmartPointer<vtkImageReader2>(reader) : nullptr;
 }
 
@@ -125,7 +77,7 @@ void eightBits(vtkUnsignedShortArray* wide, vtkImageData* image)
 vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file, std::vector<std::string>& warnings)
 {
   const auto reader = makeReader(file);
-  const ReaderListener listener(reader);
+  const MessageListener listener({reader, reader->GetExecutive()});
   reader->Update();
   if (listener.heardError() || reader->GetErrorCode() != 0)
   {
@@ -159,7 +111,7 @@ vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file, std::
 std::array<int, 2> readImageSize(const std::filesystem::path& file)
 {
   const auto reader = makeReader(file);
-  const ReaderListener listener(reader);
+  const MessageListener listener({reader, reader->GetExecutive()});
   reader->UpdateInformation();
   if (listener.heardError())
   {

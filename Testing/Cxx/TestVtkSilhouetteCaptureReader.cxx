@@ -13,6 +13,7 @@
 #include "vtkPNGWriter.h"
 #include "vtkPNMWriter.h"
 #include "vtkTIFFWriter.h"
+#include "vtkZLibDataCompressor.h"
 
 #include <filesystem>
 #include <fstream>
@@ -31,6 +32,54 @@ template <typename Writer> void writeImage(vtkImageData* image, const fs::path& 
   writer->SetFileName(file.c_str());
   writer->Write();
 }
+
+/** A PNG file of one's own, as good or as bad as wanted. */
+struct PngFile
+{
+  std::uint32_t width = 4, height = 4;
+  int depth = 8, colour = 0, interlacing = 0;
+  std::string rows = std::string(20, '\0'); ///< what is compressed
+  std::string before;                       ///< chunks before the pixels
+  std::string after;                        ///< and after them
+  bool wrongSum = false;
+
+  static std::string number(std::uint32_t n)
+  {
+    return {char(n >> 24), char(n >> 16), char(n >> 8), char(n)};
+  }
+
+  static std::string chunk(const std::string& type, const std::string& data)
+  {
+    std::uint32_t sum = 0xffffffffu;
+    for (const char c : type + data)
+    {
+      sum ^= static_cast<unsigned char>(c);
+      for (int bit = 0; bit < 8; ++bit)
+      {
+        sum = sum >> 1 ^ ((sum & 1) != 0 ? 0xedb88320u : 0);
+      }
+    }
+    return number(std::uint32_t(data.size())) + type + data + number(~sum);
+  }
+
+  std::string pixels() const
+  {
+    vtkNew<vtkZLibDataCompressor> zlib;
+    std::string packed(zlib->GetMaximumCompressionSpace(this->rows.size()), '\0');
+    packed.resize(zlib->Compress(reinterpret_cast<const unsigned char*>(this->rows.data()), this->rows.size(),
+                                 reinterpret_cast<unsigned char*>(&packed[0]), packed.size()));
+    packed.back() = char(packed.back() ^ (this->wrongSum ? 1 : 0));
+    return packed;
+  }
+
+  std::string bytes() const
+  {
+    const std::string header = number(this->width) + number(this->height) + char(this->depth) +
+                               char(this->colour) + std::string(2, '\0') + char(this->interlacing);
+    return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + this->before + chunk("IDAT", this->pixels()) +
+           this->after + chunk("IEND", "");
+  }
+};
 
 /** A folder of a test's own, with eight disc masks and a P list. */
 class VtkSilhouetteCaptureReader : public ::testing::Test
@@ -252,6 +301,82 @@ TEST_F(VtkSilhouetteCaptureReader, RefusesWhatItCannotRead)
   expectError(this->Reader, {"99"});
 }
 
+/** Their chunks are whole and have their checksums, but what they hold is not an image. */
+TEST_F(VtkSilhouetteCaptureReader, RefusesPngFilesThatLibpngWouldGiveUp)
+{
+  fs::remove_all(this->Folder / "masks");
+  fs::create_directories(this->Folder / "masks");
+  this->Reader->SetViews("2");
+  const fs::path file = this->Folder / "masks/disc2.png";
+  const auto expectFault = [&](const PngFile& png, const std::string& fault)
+  {
+    std::ofstream(file, std::ios::binary) << png.bytes();
+    expectError(this->Reader, {"cannot read image", "disc2.png", fault});
+  };
+  const auto expectSize = [&](const PngFile& png, int width, int height)
+  {
+    std::ofstream(file, std::ios::binary) << png.bytes();
+    this->Reader->Modified();
+    this->Reader->Update();
+    ASSERT_EQ(this->Reader->GetOutput()->GetNumberOfPartitionedDataSets(), 1u) << png.rows.size();
+    int size[3];
+    vtkImageData::SafeDownCast(this->Reader->GetOutput()->GetPartition(0, 0))->GetDimensions(size);
+    EXPECT_EQ(size[0], width);
+    EXPECT_EQ(size[1], height);
+  };
+  PngFile png;
+  expectSize(png, 4, 4);
+  png.wrongSum = true;
+  expectFault(png, "damaged");
+  png = PngFile();
+  png.rows.resize(19);
+  expectFault(png, "not as many");
+  png.rows.resize(25);
+  expectFault(png, "not as many");
+  png = PngFile();
+  png.rows[15] = 5; // begins the last row
+  expectFault(png, "filter");
+  png = PngFile();
+  png.width = png.height = 1000000; // a terabyte, from a handful of bytes
+  expectFault(png, "not as many");
+  png.width = 1000001;
+  expectFault(png, "header makes no sense");
+  png = PngFile();
+  png.before = PngFile::chunk("JUNK", "?");
+  expectFault(png, "chunk JUNK");
+  png.before = PngFile::chunk("j?nk", "?");
+  expectFault(png, "no name");
+  png.before = PngFile::chunk("teXt", "a comment, of no importance");
+  expectSize(png, 4, 4);
+  png.after = PngFile::chunk("tEXt", "") + PngFile::chunk("IDAT", "more");
+  expectFault(png, "not in one place");
+  png = PngFile();
+  png.colour = 3;
+  expectFault(png, "no palette");
+  png.before = PngFile::chunk("PLTE", "four");
+  expectFault(png, "palette");
+  png.before = PngFile::chunk("PLTE", std::string(6, 'c'));
+  expectSize(png, 4, 4);
+  png.before += png.before;
+  expectFault(png, "palette");
+
+  // Interlaced: seven small images, here of rows of 1, 1, 2, 2, 3, 3 and 6 pixels, five of the first, but none of what a narrow image has not.
+  png = PngFile();
+  png.interlacing = 1;
+  png.width = 6;
+  png.height = 9;
+  png.rows = std::string(2 * 2 + 1 * 2 * 2 + 1 * 3 + 3 * 2 + 2 * 4 + 5 * 4 + 4 * 7, '\0');
+  expectSize(png, 6, 9);
+  png.rows.pop_back();
+  expectFault(png, "not as many");
+  png.interlacing = 0;
+  png.width = 9; // pixels of one bit
+  png.depth = 1;
+  png.height = 2;
+  png.rows = std::string(6, '\0');
+  expectSize(png, 9, 2);
+}
+
 TEST_F(VtkSilhouetteCaptureReader, SurvivesBrokenImages)
 {
   // Each format whole, then cut short at many places, then with a byte changed.
@@ -289,6 +414,10 @@ TEST_F(VtkSilhouetteCaptureReader, SurvivesBrokenImages)
   tryAll(this->Folder / "masks/disc2.jpg");
   writeImage<vtkPNMWriter>(image, this->Folder / "masks/disc2.pgm");
   tryAll(this->Folder / "masks/disc2.pgm");
+  writeImage<vtkBMPWriter>(image, this->Folder / "masks/disc2.bmp");
+  tryAll(this->Folder / "masks/disc2.bmp");
+  writeImage<vtkTIFFWriter>(image, this->Folder / "masks/disc2.tif");
+  tryAll(this->Folder / "masks/disc2.tif");
   std::ofstream(this->Folder / "masks/disc2.pgm") << "P5 2 2 65535\n12345678";
   expectError(this->Reader, {"disc2.pgm", "more than 8 bits"});
   std::ofstream(this->Folder / "masks/disc2.pgm") << "P2\n2 2\n255\n0 1 2 3\n";
