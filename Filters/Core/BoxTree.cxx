@@ -10,8 +10,8 @@ struct BoxTree::Part
   std::int32_t first, last;
   Node node{};
   std::size_t left = 0, right = 0; ///< parts, where it is split
-  std::vector<Node> nodes;
-  std::vector<std::int32_t> leaves;
+  std::vector<Node> nodes{};
+  std::vector<std::int32_t> leaves{};
 };
 
 BoxTree::BoxTree(const std::vector<Box>& boxes)

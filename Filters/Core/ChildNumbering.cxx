@@ -2,6 +2,7 @@
 #include "ChildNumbering.h"
 
 #include "FirstTouch.h"
+#include "NumberedCount.h"
 
 #include <algorithm>
 #include <numeric>
@@ -31,6 +32,7 @@ void numberChildren(Generation& generation, Execution& execution)
       before[run + 1] = std::uint32_t(std::count(
         generation.state.begin() + std::ptrdiff_t(first), generation.state.begin() + std::ptrdiff_t(last), OctantState::Intersection));
     });
+  numberedCount(std::accumulate(before.begin(), before.end(), std::size_t(0)), "subdivided octants of one generation");
   std::partial_sum(before.begin(), before.end(), before.begin());
   resizeSideBySide(generation.childBlock, count, execution);
   forRuns(

@@ -7,6 +7,7 @@
 #include "CodeCursor.h"
 #include "FirstTouch.h"
 #include "IndicesWhere.h"
+#include "NumberedCount.h"
 
 #include <algorithm>
 #include <iterator>
@@ -130,6 +131,7 @@ private:
       shares, cellBits + 3, [&](const Share& share, std::size_t b) { this->Target[share.source] = std::uint32_t(b); }, this->Exec);
     this->FirstCorner.resize(this->Corners.size() + 1, 0);
     std::transform(this->Corners.begin(), this->Corners.end(), this->FirstCorner.begin() + 1, [](const BlockWord& word) { return std::uint32_t(countBits(word.bits)); });
+    numberedCount(std::accumulate(this->FirstCorner.begin(), this->FirstCorner.end(), std::size_t(0)), "corners of cells");
     std::partial_sum(this->FirstCorner.begin(), this->FirstCorner.end(), this->FirstCorner.begin());
   }
 
@@ -194,7 +196,7 @@ struct Merged
 
   Merged(const std::vector<std::uint64_t>& many, const std::vector<std::uint64_t>& few, Execution& execution)
   {
-    resizeSideBySide(this->codes, many.size() + few.size(), execution);
+    resizeSideBySide(this->codes, numberedCount(many.size() + few.size(), "corners of cells"), execution);
     this->place(many, few, this->placesOfMany, execution);
     this->place(few, many, this->placesOfFew, execution);
   }

@@ -34,7 +34,7 @@ struct CornerShell
   std::ptrdiff_t findCell(const LatticePoint& cell) const;
 };
 
-/** The shell of the given cells (ascending, no code twice). Cost: O(n). */
+/** The shell of the given cells (ascending, no code twice). Throws InvalidInput where they have more than 2^31 - 1 corners. Cost: O(n). */
 CornerShell makeCornerShell(std::vector<std::uint64_t> cells, Execution& execution);
 
 /**

@@ -26,7 +26,8 @@ public:
 
   /**
    * Call `work` on ranges that cover [0, count) once, perhaps at the same time. `grain` is the least number of
-   * items worth handing to a thread. `work` must not throw.
+   * items worth handing to a thread. What `work` throws, as where memory is short, is thrown here, once no thread
+   * works any more; of several the first, by time, so that errors that are told apart are not for it to throw.
    */
   virtual void forRanges(std::size_t count, std::size_t grain, const Range& work)
   {

@@ -249,7 +249,8 @@ private:
 
 void smoothField(BrickField& field, double sigma, Execution& execution)
 {
-  if (sigma > 0.0 && field.size() > 0)
+  constexpr double least = 1e-3; // octants: what is narrower leaves every value as it is
+  if (sigma > least && field.size() > 0)
   {
     Smoothing(field, keepingKernel(sigma)).run(execution);
   }

@@ -4,6 +4,7 @@
 #include "FirstTouch.h"
 #include "LeastNumbers.h"
 #include "MarchingCubesTable.h"
+#include "NumberedCount.h"
 
 #include <numeric>
 
@@ -79,6 +80,7 @@ private:
           }
         }
       });
+    numberedCount(std::accumulate(this->Surface.cellEnd.begin(), this->Surface.cellEnd.end(), std::size_t(0)), "triangles");
     std::partial_sum(this->Surface.cellEnd.begin(), this->Surface.cellEnd.end(), this->Surface.cellEnd.begin());
   }
 

@@ -30,7 +30,7 @@ struct LatticeSurface
 /** Least distance of a crossing from either end of its edge, in edges, so that no two points coincide. */
 constexpr double CrossingMargin = 0.01;
 
-/** Contour all cells of the shell. `inside` has a value 0 or 1 for each corner of it. */
+/** Contour all cells of the shell. `inside` has a value 0 or 1 for each corner of it. Throws InvalidInput for more than 2^31 - 1 triangles. */
 LatticeSurface contour(const CornerShell& shell, const std::vector<std::uint8_t>& inside, Execution& execution);
 
 /** World position of the point at fraction t, from the inside end, of an edge. */

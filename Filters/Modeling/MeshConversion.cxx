@@ -125,6 +125,10 @@ Mesh meshOf(vtkPolyData* surface, const char* what)
   {
     throw InvalidInput(std::string(what) + " has more than 2^31 - 1 points");
   }
+  if (surface->GetNumberOfPolys() > std::numeric_limits<std::int32_t>::max())
+  {
+    throw InvalidInput(std::string(what) + " has more than 2^31 - 1 triangles");
+  }
   if (surface->GetNumberOfStrips() > 0)
   {
     throw InvalidInput(std::string(what) + " has triangle strips; vtkTriangleFilter makes triangles of them");

@@ -3,6 +3,7 @@
 
 #include "OctreeSharing.h"
 #include "PreparedViewsSharing.h"
+#include "ThreadFailure.h"
 #include "vtkSilhouetteCompatibility.h"
 
 #include "vtkAlgorithm.h"
@@ -25,10 +26,12 @@ void vtkSilhouetteExecution::forRanges(std::size_t count, std::size_t grain, con
   {
     return;
   }
-  const auto range = [&work](vtkIdType first, vtkIdType last)
-  { work(static_cast<std::size_t>(first), static_cast<std::size_t>(last)); };
+  silhouette::ThreadFailure failure;
+  const auto range = [&](vtkIdType first, vtkIdType last)
+  { failure.guard([&] { work(static_cast<std::size_t>(first), static_cast<std::size_t>(last)); }); };
   vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(std::max<std::size_t>(grain, 1)),
                    range);
+  failure.rethrow();
 }
 
 int vtkSilhouetteExecution::threads() const

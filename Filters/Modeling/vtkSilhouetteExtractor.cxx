@@ -40,7 +40,7 @@ void extractSome(const std::vector<ImageView>& views, std::size_t first, std::si
                       {
                         for (std::size_t i = from; i < to; ++i)
                         {
-                          try // an exception must not leave the thread
+                          try // whichever thread comes to it first, the first view counts
                           {
                             const ImageView& view = views[first + i];
                             silhouette::View& result = out[first + i];

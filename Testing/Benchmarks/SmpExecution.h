@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Execution.h"
+#include "ThreadFailure.h"
 
 #include "vtkSMPTools.h"
 
@@ -18,8 +19,11 @@ class SmpExecution : public Execution
 public:
   void forRanges(std::size_t count, std::size_t grain, const Range& work) override
   {
-    const auto range = [&work](vtkIdType first, vtkIdType last) { work(std::size_t(first), std::size_t(last)); };
+    ThreadFailure failure;
+    const auto range = [&](vtkIdType first, vtkIdType last)
+    { failure.guard([&] { work(std::size_t(first), std::size_t(last)); }); };
     vtkSMPTools::For(0, vtkIdType(count), vtkIdType(std::max<std::size_t>(grain, 1)), range);
+    failure.rethrow();
   }
   int threads() const override { return std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads()); }
 };

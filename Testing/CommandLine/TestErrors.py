@@ -42,6 +42,26 @@ class Errors(ProgramTest):
         (capture / "masks" / "view_003.png").write_bytes(b"\x89PNG\r\n\x1a\nnothing")
         self.fails(FILES, ["cannot read image", "view_003.png"], capture)
 
+    def test_little_memory(self):
+        """However little there is, and whichever thread asks for more, an error says so."""
+        mesh = self.folder / "x.ply"
+
+        def reconstruct(depth, memory_mib):
+            return program.run("reconstruct", self.capture, "-o", mesh, "--depth", depth, "--threads", 2,
+                               memory_mib=memory_mib, environment={"VTK_SMP_BACKEND_IN_USE": "STDThread"})
+
+        enough = next(size for size in range(200, 3000, 20) if reconstruct(3, size).returncode == program.OK)
+        mesh.write_text("old")
+        codes = []
+        for size in range(enough + 20, enough + 300, 20):
+            done = reconstruct(8, size)
+            codes.append(done.returncode)
+            self.assertIn(done.returncode, (program.OK, PROCESSING), f"{size} MiB: {done.stderr}")
+            if done.returncode == PROCESSING:
+                self.assertIn("not enough memory", done.stderr)
+                self.assertEqual(mesh.read_text(), "old")
+        self.assertIn(PROCESSING, codes)
+
     def test_missing_image(self):
         capture = self.copy_of_capture()
         (capture / "masks" / "view_003.png").unlink()

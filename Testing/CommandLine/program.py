@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import resource
 import shutil
 import struct
 import subprocess
@@ -17,9 +18,12 @@ PICTURES = os.environ.get("SILHOUETTE_PICTURES", "none") != "none"
 OK, PROCESSING, ARGUMENTS, FILES, INTERRUPTED = 0, 1, 2, 3, 130
 
 
-def run(*arguments, cwd=None, timeout=300):
-    """Run the program, its output as text."""
+def run(*arguments, cwd=None, timeout=300, memory_mib=None, environment=()):
+    """Run the program, its output as text; with so much address space at most, and further variables of the environment."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (memory_mib << 20,) * 2)
     return subprocess.run([PROGRAM, *map(str, arguments)], cwd=cwd, timeout=timeout,
+                          preexec_fn=limit if memory_mib else None, env={**os.environ, **dict(environment)},
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
 
 

@@ -203,3 +203,18 @@ TEST(FieldSmoothing, IsWhatItIsValueByValueWhereverBricksEnd)
   smoothField(nothing, 2.0, serial);
   EXPECT_EQ(nothing.size(), 0u);
 }
+
+TEST(FieldSmoothing, LeavesEverythingWhereItIsNextToNone)
+{
+  Execution execution;
+  const Lattice lattice = latticeOf(4);
+  Random random(5);
+  BrickField field(lattice, allCells(lattice), 0, execution);
+  fill(field, [&](const LatticePoint&) { return random.uniform(); });
+  const std::vector<float> before = field.values();
+  for (const double sigma : { 0.0, 1e-300, 1e-170, 1e-5, 1e-3, 1.0001e-3 })
+  {
+    smoothField(field, sigma, execution);
+    EXPECT_EQ(field.values(), before) << sigma;
+  }
+}

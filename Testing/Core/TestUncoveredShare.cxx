@@ -195,6 +195,6 @@ TEST(UncoveredShare, RefusesWhatDoesNotFit)
   auto fewer = rodViews();
   fewer.pop_back();
   refused(prepareViews(fewer), {}, "carved from 3 views, not from 2");
-  EXPECT_EQ(uncoveredShares(Octree{ {}, 0, 3, 0, OutsidePolicy::Border, 0, {}, {}, {} }, views, {}, execution),
+  EXPECT_EQ(uncoveredShares(Octree{ {}, 0, 3, 0, OutsidePolicy::Border, 0, {}, {}, {}, {} }, views, {}, execution),
     std::vector<double>(3, 0.0));
 }
