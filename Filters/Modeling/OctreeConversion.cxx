@@ -17,6 +17,8 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -217,10 +219,17 @@ void readParameters(vtkHyperTreeGrid* grid, Octree& octree)
   octree.lattice.depth = fieldInRange(grid, "Depth", 1, MaximumDepth);
   octree.treeGeneration = fieldInRange(grid, "TreeGeneration", 0, octree.lattice.depth);
   octree.viewCount = fieldInRange(grid, "NumberOfViews", 1, 0xffff);
-  octree.backgroundVotes = fieldInRange(grid, "BackgroundVotes", 0, 0xffff);
+  octree.backgroundVotes = fieldInRange(grid, "BackgroundVotes", 0, octree.viewCount - 1);
   octree.outside = OutsidePolicy(fieldInRange(grid, "OutsidePolicy", 0, 2));
   octree.fingerprint = getUnsignedField(grid, "ViewsFingerprint", GridName);
   const std::vector<double> root = getField(grid, "RootCube", 4, GridName);
+  if (!std::all_of(root.begin(), root.end(), [](double value) { return std::isfinite(value); }) || !(root[3] > 0.0))
+  {
+    std::ostringstream text;
+    text << GridName << "'s field array RootCube holds " << root[0] << " " << root[1] << " " << root[2] << " " << root[3]
+         << "; a corner and an edge above 0, all finite, are possible";
+    throw InvalidInput(text.str());
+  }
   octree.lattice.root = {{root[0], root[1], root[2]}, root[3]};
   octree.statistics.octantsTested = getUnsignedField(grid, "OctantsTested", GridName);
   octree.statistics.viewTests = getUnsignedField(grid, "ViewTests", GridName);

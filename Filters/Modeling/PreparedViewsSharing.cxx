@@ -13,11 +13,14 @@
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 
-#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace
 {
+
+/** A collection's images, in order, and when each last changed. An image that is gone is never taken for another: no two objects change at the same time. */
+using Images = std::vector<std::pair<const vtkDataObject*, vtkMTimeType>>;
 
 /** A vtkObject, so that the information keeps it alive. */
 class vtkSilhouettePreparedViews : public vtkObject
@@ -27,7 +30,7 @@ public:
   vtkTypeMacro(vtkSilhouettePreparedViews, vtkObject);
 
   silhouette::modeling::SharedViews Views;
-  vtkMTimeType ImageTime = 0; ///< of the newest image when the views were prepared
+  Images From; ///< what the views were prepared from
 
 protected:
   vtkSilhouettePreparedViews() = default;
@@ -46,20 +49,18 @@ vtkInformationObjectBaseKey* preparedViewsKey()
   return key;
 }
 
-vtkMTimeType newestImage(vtkPartitionedDataSetCollection* collection)
+Images imagesOf(vtkPartitionedDataSetCollection* collection)
 {
-  vtkMTimeType newest = 0;
+  Images images;
   for (unsigned int i = 0; i < collection->GetNumberOfPartitionedDataSets(); ++i)
   {
     for (unsigned int j = 0; j < collection->GetNumberOfPartitions(i); ++j)
     {
-      if (vtkDataObject* image = collection->GetPartitionAsDataObject(i, j))
-      {
-        newest = std::max(newest, image->GetMTime());
-      }
+      vtkDataObject* image = collection->GetPartitionAsDataObject(i, j);
+      images.emplace_back(image, image ? image->GetMTime() : 0);
     }
   }
-  return newest;
+  return images;
 }
 
 } // namespace
@@ -70,7 +71,7 @@ namespace silhouette::modeling
 void attachPreparedViews(vtkPartitionedDataSetCollection* collection, SharedViews views)
 {
   vtkNew<vtkSilhouettePreparedViews> holder;
-  holder->ImageTime = newestImage(collection);
+  holder->From = imagesOf(collection);
   setField(collection, "OutsidePolicy", int(views->options().outside));
   setField(collection, "ViewsFingerprint", views->fingerprint());
   holder->Views = std::move(views);
@@ -90,8 +91,7 @@ SharedViews preparedViews(vtkPartitionedDataSetCollection* collection, const Vie
     auto* holder =
         vtkSilhouettePreparedViews::SafeDownCast(preparedViewsKey()->Get(collection->GetInformation()));
     if (holder && holder->Views->options().outside == options.outside &&
-        int(collection->GetNumberOfPartitionedDataSets()) == holder->Views->size() &&
-        newestImage(collection) <= holder->ImageTime)
+        imagesOf(collection) == holder->From)
     {
       return holder->Views;
     }

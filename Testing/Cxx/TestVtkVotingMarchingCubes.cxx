@@ -8,8 +8,12 @@
 #include "vtkCellData.h"
 #include "vtkFeatureEdges.h"
 #include "vtkHyperTreeGrid.h"
+#include "vtkPartitionedDataSet.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnsignedShortArray.h"
+
+#include <limits>
+#include <utility>
 
 using namespace silhouette::testing;
 
@@ -176,6 +180,39 @@ TEST(VtkVotingMarchingCubes, PreparesViewsThatCameAnotherWay)
   expectError(other, {"carved from other views"});
 }
 
+TEST(VtkVotingMarchingCubes, LooksAtImagesThatOthersWerePutInPlaceOf)
+{
+  // Made before the views were prepared, so that none of them says that it changed since.
+  const double radius = 0.5 * Focal / std::sqrt(CameraDistance * CameraDistance - 1.0);
+  auto smaller = discImage(ImageSize, radius);
+  Pipeline pipeline;
+  pipeline.octree->Update();
+  vtkPartitionedDataSetCollection* views = pipeline.octree->GetViewsOutput();
+  vtkNew<vtkVotingMarchingCubes> other;
+  other->SetInputDataObject(0, pipeline.octree->GetOutput());
+  other->SetViewsData(views);
+  other->Update();
+  EXPECT_GT(other->GetOutput()->GetNumberOfPolys(), 0);
+
+  vtkSmartPointer<vtkDataObject> first = views->GetPartitionAsDataObject(0, 0);
+  smaller->GetFieldData()->PassData(first->GetFieldData());
+  views->GetPartitionedDataSet(0)->SetPartition(0, smaller);
+  other->Modified();
+  expectError(other, {"carved from other views"});
+
+  // The same images in another order.
+  vtkSmartPointer<vtkDataObject> second = views->GetPartitionAsDataObject(1, 0);
+  views->GetPartitionedDataSet(0)->SetPartition(0, second);
+  views->GetPartitionedDataSet(1)->SetPartition(0, first);
+  other->Modified();
+  expectError(other, {"carved from other views"});
+  views->GetPartitionedDataSet(0)->SetPartition(0, first);
+  views->GetPartitionedDataSet(1)->SetPartition(0, second);
+  other->Modified();
+  other->Update();
+  EXPECT_GT(other->GetOutput()->GetNumberOfPolys(), 0);
+}
+
 /** The octree that travels with the grid, and the one that is read from its arrays: the same surface. */
 TEST(VtkVotingMarchingCubes, ReadsAGridThatWasCopiedOrChanged)
 {
@@ -232,6 +269,20 @@ TEST(VtkVotingMarchingCubes, RefusesWhatDoesNotBelongTogether)
   nameless->SetFieldData(vtkNew<vtkFieldData>());
   pipeline.surface->SetInputDataObject(0, nameless);
   expectError(pipeline.surface, {"the octree has no field array"});
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const auto& [component, value] : {std::pair(3, 0.0), {3, -1.0}, {3, std::nan("")}, {3, infinite}, {0, infinite}, {2, std::nan("")}})
+  {
+    vtkNew<vtkHyperTreeGrid> shapeless;
+    shapeless->DeepCopy(pipeline.octree->GetOutput());
+    shapeless->GetFieldData()->GetArray("RootCube")->SetComponent(0, component, value);
+    pipeline.surface->SetInputDataObject(0, shapeless);
+    expectError(pipeline.surface, {"the octree's field array RootCube holds", "an edge above 0"});
+  }
+  vtkNew<vtkHyperTreeGrid> hopeless;
+  hopeless->DeepCopy(pipeline.octree->GetOutput());
+  hopeless->GetFieldData()->GetArray("BackgroundVotes")->SetComponent(0, 0, 8);
+  pipeline.surface->SetInputDataObject(0, hopeless);
+  expectError(pipeline.surface, {"BackgroundVotes holds 8", "0 to 7 is possible"});
 
   // Float cannot tell the points of a small object far away apart.
   Pipeline far;
