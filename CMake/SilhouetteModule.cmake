@@ -26,6 +26,7 @@ set(SILHOUETTE_VTK_COMPONENTS
   ParallelCore
   RenderingCore
   RenderingOpenGL2
+  tiff
 )
 set(python_components)
 if(SILHOUETTE_WRAP_PYTHON)

@@ -4,6 +4,7 @@
 #include "Error.h"
 #include "ImageFileCheck.h"
 #include "MessageListener.h"
+#include "TiffFile.h"
 
 #include "vtkBMPReader.h"
 #include "vtkExecutive.h"
@@ -13,7 +14,6 @@
 #include "vtkPNGReader.h"
 #include "vtkPNMReader.h"
 #include "vtkPointData.h"
-#include "vtkTIFFReader.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnsignedShortArray.h"
 
@@ -47,8 +47,7 @@ vtkSmartPointer<vtkImageReader2> makeReader(const std::filesystem::path& file)
   using Candidate = vtkSmartPointer<vtkImageReader2> (*)(const char*);
   for (const Candidate candidate :
        {Candidate(readerIfItFits<vtkPNGReader>), Candidate(readerIfItFits<vtkJPEGReader>),
-        Candidate(readerIfItFits<vtkPNMReader>), Candidate(readerIfItFits<vtkBMPReader>),
-        Candidate(readerIfItFits<vtkTIFFReader>)})
+        Candidate(readerIfItFits<vtkPNMReader>), Candidate(readerIfItFits<vtkBMPReader>)})
   {
     if (auto reader = candidate(name.c_str()))
     {
@@ -76,6 +75,10 @@ void eightBits(vtkUnsignedShortArray* wide, vtkImageData* image)
 
 vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file, std::vector<std::string>& warnings)
 {
+  if (isTiffFile(file))
+  {
+    return readTiff(file);
+  }
   const auto reader = makeReader(file);
   const MessageListener listener({reader, reader->GetExecutive()});
   reader->Update();
@@ -110,6 +113,10 @@ vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file, std::
 
 std::array<int, 2> readImageSize(const std::filesystem::path& file)
 {
+  if (isTiffFile(file))
+  {
+    return readTiffSize(file);
+  }
   const auto reader = makeReader(file);
   const MessageListener listener({reader, reader->GetExecutive()});
   reader->UpdateInformation();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Image files, decoded by VTK's readers: PNG, JPEG, PNM, BMP and TIFF. Private to the module.
+ * Image files, decoded by VTK's readers, PNG, JPEG, PNM and BMP, and by libtiff (TiffFile.h). Private to the module.
  *
  * The readers run one after the other: VTK promises nothing about several at the same time.
  */

@@ -222,7 +222,17 @@ TEST_F(VtkSilhouetteCaptureReader, ChoosesImagesViewsAndFamily)
 
 TEST_F(VtkSilhouetteCaptureReader, ReadsEveryImageFormat)
 {
+  // Another in each quarter, so that what is turned or mirrored shows.
   auto image = discImage(ImageSize, 30.0);
+  for (int y = 0; y < ImageSize; ++y)
+  {
+    for (int x = 0; x < ImageSize; ++x)
+    {
+      const bool isRight = x > ImageSize / 2, isUpper = y > ImageSize / 2;
+      auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(x, y, 0));
+      *pixel = isUpper && !isRight ? 255 : isUpper ? *pixel : isRight && x > y + 40 ? 255 : 0;
+    }
+  }
   vtkNew<vtkImageData> wide;
   wide->SetDimensions(ImageSize, ImageSize, 1);
   wide->AllocateScalars(VTK_UNSIGNED_SHORT, 1);
@@ -237,22 +247,36 @@ TEST_F(VtkSilhouetteCaptureReader, ReadsEveryImageFormat)
   writeImage<vtkJPEGWriter>(image, this->Folder / "masks/disc1.jpg");
   writeImage<vtkPNMWriter>(image, this->Folder / "masks/disc2.pgm");
   writeImage<vtkBMPWriter>(image, this->Folder / "masks/disc3.bmp");
-  writeImage<vtkTIFFWriter>(image, this->Folder / "masks/disc4.tif");
-  this->Reader->SetViews("0-4");
+  vtkNew<vtkTIFFWriter> tiff;
+  const auto writeTiff = [&](vtkImageData* content, int compression, const char* name)
+  {
+    vtkNew<vtkImageData> copy; // which compression may change
+    copy->DeepCopy(content);
+    tiff->SetInputData(copy);
+    tiff->SetCompression(compression);
+    tiff->SetFileName((this->Folder / "masks" / name).c_str());
+    tiff->Write();
+  };
+  writeTiff(image, vtkTIFFWriter::NoCompression, "disc4.tif");
+  writeTiff(image, vtkTIFFWriter::PackBits, "disc5.tif");
+  writeTiff(image, vtkTIFFWriter::Deflate, "disc6.tif");
+  writeTiff(wide, vtkTIFFWriter::PackBits, "disc7.tiff");
+  this->Reader->SetViews("0-7");
   const Listener listener(this->Reader);
   this->Reader->Update();
   EXPECT_TRUE(listener.silent());
-  ASSERT_EQ(this->Reader->GetOutput()->GetNumberOfPartitionedDataSets(), 5u);
-  for (unsigned int i = 0; i < 5; ++i)
+  ASSERT_EQ(this->Reader->GetOutput()->GetNumberOfPartitionedDataSets(), 8u);
+  for (unsigned int i = 0; i < 8; ++i)
   {
     vtkImageData* found = this->output(i);
     ASSERT_EQ(found->GetScalarType(), VTK_UNSIGNED_CHAR);
+    ASSERT_EQ(found->GetNumberOfScalarComponents(), i == 3 ? 3 : 1) << i; // BMP has colours
     for (int y = 0; y < ImageSize; y += 5)
     {
       for (int x = 0; x < ImageSize; x += 5)
       {
         const int expected = *static_cast<unsigned char*>(image->GetScalarPointer(x, y, 0));
-        ASSERT_NEAR(*static_cast<unsigned char*>(found->GetScalarPointer(x, y, 0)), expected, 100) << i;
+        ASSERT_NEAR(*static_cast<unsigned char*>(found->GetScalarPointer(x, y, 0)), expected, 100) << i << ": " << x << " " << y;
       }
     }
   }
