@@ -4,8 +4,9 @@
 #include "Error.h"
 #include "TextParsing.h"
 
-
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <map>
 
 namespace silhouette
@@ -107,10 +108,34 @@ void checkNames(const std::filesystem::path& file, const std::vector<NamedProjec
   }
 }
 
+/** Camera files of other programs, told by how they begin. */
+void refuseForeign(const std::filesystem::path& file)
+{
+  static constexpr std::array<std::array<const char*, 2>, 7> kinds = {{{"{", "JSON, as NeRF's transforms.json"},
+                                                                       {"<?xml", "XML, as Metashape's and OpenCV's"},
+                                                                       {"<opencv_storage", "OpenCV's XML"},
+                                                                       {"%YAML", "YAML, as OpenCV's"},
+                                                                       {"CONTOUR", "PMVS's, of one view"},
+                                                                       {"# Camera list with", "COLMAP's cameras.txt"},
+                                                                       {"# Image list with", "COLMAP's images.txt"}}};
+  std::string start(32, '\0');
+  std::ifstream(file, std::ios::binary).read(&start[0], std::streamsize(start.size()));
+  for (const auto& [begin, kind] : kinds)
+  {
+    if (start.compare(0, std::string(begin).size(), begin) == 0)
+    {
+      throw InvalidInput(file.string() + ": this looks like " + kind +
+                         ", which is not read; a P list has a line for each view, the image's name and the 12 numbers of its 3 x 4 "
+                         "matrix, row by row, from the world to pixels of the undistorted image");
+    }
+  }
+}
+
 } // namespace
 
 CameraFile readCameraFile(const std::filesystem::path& file)
 {
+  refuseForeign(file);
   std::vector<TextLine> lines = readTextLines(file);
   CameraFile cameras;
   if (isMiddlebury(file, lines))

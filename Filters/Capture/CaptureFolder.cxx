@@ -129,14 +129,16 @@ std::vector<int> goodSilhouettes(const fs::path& list, const fs::path& cameraFil
   std::set<int> good;
   for (const TextLine& line : readTextLines(list))
   {
-    const std::string& name = line.tokens[0];
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
+    for (const std::string& name : line.tokens)
     {
-      throw InvalidInput(list.string() + " line " + std::to_string(line.number) + ": " + inQuotes(name) +
-                         " is not a view of " + cameraFile.filename().string());
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found == names.end())
+      {
+        throw InvalidInput(list.string() + " line " + std::to_string(line.number) + ": " + inQuotes(name) +
+                           " is not a view of " + cameraFile.filename().string());
+      }
+      good.insert(int(found - names.begin()));
     }
-    good.insert(int(found - names.begin()));
   }
   if (good.empty())
   {
@@ -164,9 +166,23 @@ std::vector<int> usedViews(const CaptureDescription& capture, const CameraFile& 
   return selectViews(options.views, names);
 }
 
+/** What a name of the camera file says within the capture's folder: "./a.png" is "a.png", and so is the folder's own path before it. */
+fs::path nameWithin(const fs::path& folder, const std::string& name)
+{
+  const fs::path plain = fs::path(name).lexically_normal();
+  if (plain.is_relative())
+  {
+    return plain;
+  }
+  std::error_code error;
+  const fs::path relative = plain.lexically_relative(fs::absolute(folder, error).lexically_normal());
+  return relative.empty() || *relative.begin() == ".." ? plain : relative;
+}
+
 fs::path findPhotograph(const fs::path& folder, const std::string& name)
 {
-  for (const fs::path& candidate : {folder / "images" / name, folder / name})
+  const fs::path within = nameWithin(folder, name);
+  for (const fs::path& candidate : {folder / "images" / within, folder / within})
   {
     if (isFile(candidate))
     {
@@ -178,8 +194,10 @@ fs::path findPhotograph(const fs::path& folder, const std::string& name)
 
 fs::path findMask(const fs::path& folder, const std::string& name)
 {
-  const std::string inImages = name.compare(0, 7, "images/") == 0 ? name.substr(7) : name;
-  const fs::path mask = folder / "masks" / inImages;
+  const fs::path within = nameWithin(folder, name), images = "images";
+  const fs::path inImages = *within.begin() == images ? within.lexically_relative(images) : within;
+  // Of an image that lies elsewhere the mask has its name.
+  const fs::path mask = folder / "masks" / (inImages.is_relative() ? inImages : inImages.filename());
   std::vector<fs::path> candidates = {mask, fs::path(mask).replace_extension(".png"),
                                       fs::path(mask.string() + ".png")};
   for (const char* extension : ImageExtensions)
@@ -235,8 +253,9 @@ void warnOfUnnamedImages(CaptureDescription& capture, const CameraFile& cameras)
   std::set<fs::path> named;
   for (const NamedProjection& view : cameras.views)
   {
-    named.insert((capture.folder / "images" / view.name).lexically_normal());
-    named.insert((capture.folder / view.name).lexically_normal());
+    const fs::path within = nameWithin(capture.folder, view.name);
+    named.insert((capture.folder / "images" / within).lexically_normal());
+    named.insert((capture.folder / within).lexically_normal());
   }
   std::vector<fs::path> unnamed;
   for (const fs::path& file : filesOf(capture.folder / "images"))
@@ -253,6 +272,35 @@ void warnOfUnnamedImages(CaptureDescription& capture, const CameraFile& cameras)
                                (unnamed.size() == 1 ? " image is" : " images are") + " not named in " +
                                camera + " and not used: " + inQuotes(unnamed[0].filename().string()) +
                                (unnamed.size() == 1 ? "" : " and others"));
+  }
+}
+
+/** Masks that no view has found, where some view has none. */
+void warnOfUnusedMasks(CaptureDescription& capture, const CameraFile& cameras)
+{
+  const auto lacking = std::find_if(capture.entries.begin(), capture.entries.end(), [](const CaptureEntry& entry) { return entry.mask.empty(); });
+  if (lacking == capture.entries.end())
+  {
+    return;
+  }
+  std::set<fs::path> found;
+  for (const NamedProjection& view : cameras.views)
+  {
+    found.insert(findMask(capture.folder, view.name).lexically_normal());
+  }
+  std::vector<fs::path> unused;
+  for (const fs::path& file : filesOf(capture.folder / "masks"))
+  {
+    if (isImageName(file) && found.count(file.lexically_normal()) == 0)
+    {
+      unused.push_back(file);
+    }
+  }
+  if (!unused.empty())
+  {
+    capture.warnings.push_back((capture.folder / "masks").string() + ": " + inQuotes(unused[0].filename().string()) +
+                               (unused.size() == 1 ? " is" : " and others are") + " the mask of no view, and view " + inQuotes(lacking->name) +
+                               " has none; a mask is called as its image is, or has its stem and the extension of another image format");
   }
 }
 
@@ -284,6 +332,7 @@ CaptureDescription describeCapture(const fs::path& folderOrCameraFile, const Cap
   }
   checkMasksDiffer(capture.entries);
   warnOfUnnamedImages(capture, cameras);
+  warnOfUnusedMasks(capture, cameras);
   return capture;
 }
 

@@ -147,7 +147,12 @@ std::string projectiveWarning(const std::vector<Projection>& projections,
   const char* differs = findings.notMetric == 0  ? "handedness differs"
                         : findings.mirrored == 0 ? "lengths and angles differ"
                                                  : "lengths, angles and handedness differ";
-  return text + ". The mesh fits the photographs, but its " + differs + " from the object's";
+  const int count = int(projections.size());
+  const auto isSome = [count](int found) { return found > 0 && found < count; };
+  const bool isOdd = isSome(findings.mirrored) || isSome(findings.notMetric);
+  return text + (isOdd ? ". Where others are as they should be, such a matrix is probably wrong"
+                       : std::string(". If the matrices are right, the mesh fits the photographs, but its ") + differs +
+                             " from the object's");
 }
 
 } // namespace silhouette

@@ -40,7 +40,8 @@ InnerCamera innerCamera(const Projection& projection);
 /**
  * One warning for a capture whose projections, already positive at the object, are mirrored (negative
  * determinant of the left 3 x 3) or not metric (fx : fy outside 0.8 to 1.25, or a skew above a tenth of fx);
- * empty where nothing is amiss. It counts the views and names the first, by `names` where given, else by
+ * empty where nothing is amiss. What is amiss in all of them may be the frame's; in some alone it is probably wrong, and
+ * it says so. It counts the views and names the first, by `names` where given, else by
  * index. Cameras at infinity are not judged.
  */
 std::string projectiveWarning(const std::vector<Projection>& projections,

@@ -202,7 +202,7 @@ Survey surveyOf(const ColourImage& image)
       inView(name) +
       (two ? "an image of two colours, but both are on the same side of 127, so that it is no silhouette"
            : "a photograph without a mask or alpha is no silhouette") +
-      "; say what its background is with --key, --background, --threshold or --alpha");
+      "; say what its background is: by a key channel, a colour, a threshold or its alpha");
 }
 
 void asItIs(const ColourImage& image, bool isMask, const std::string& name, BinaryImage& out)
@@ -215,7 +215,8 @@ void asItIs(const ColourImage& image, bool isMask, const std::string& name, Bina
   }
   const bool twoValued =
       survey.colours.size() == 1 || (survey.colours.size() == 2 && survey.above && survey.below);
-  if (!isMask && !twoValued)
+  const bool oneSided = survey.colours.size() == 2 && !twoValued; // such a mask would be all object or all background
+  if (isMask ? oneSided : !twoValued)
   {
     refuse(survey, name);
   }

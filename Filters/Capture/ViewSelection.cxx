@@ -39,6 +39,17 @@ int indexOfName(const std::string& piece, const std::vector<std::string>& names)
   return found;
 }
 
+/** Where images are called by numbers, one without its extension may be taken for an index. */
+void checkIsNoIndex(const std::string& piece, int named, const std::vector<std::string>& names)
+{
+  const std::optional<int> index = parseCount(piece);
+  if (index && *index != named && std::size_t(*index) < names.size() && names[std::size_t(named)] != piece)
+  {
+    throw InvalidInput("views: " + inQuotes(piece) + " is the image " + inQuotes(names[std::size_t(named)]) + ", and the index of " +
+                       inQuotes(names[std::size_t(*index)]) + "; write the whole name, or " + piece + "-" + piece);
+  }
+}
+
 int checkedIndex(int index, const std::string& piece, std::size_t count)
 {
   if (std::size_t(index) >= count)
@@ -87,6 +98,7 @@ std::vector<int> selectViews(const std::string& selection, const std::vector<std
     const int named = piece.empty() ? -1 : indexOfName(piece, names);
     if (named >= 0)
     {
+      checkIsNoIndex(piece, named, names);
       selected.insert(named);
     }
     else if (!addIndices(piece, names.size(), selected))

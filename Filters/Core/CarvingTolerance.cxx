@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -87,14 +88,27 @@ public:
 
   TolerantCarving run()
   {
-    TolerantCarving strict = this->attempt(this->Options.backgroundVotes, 0);
+    std::exception_ptr nothingSurvives; // of the strict octree
+    std::optional<TolerantCarving> strict;
+    try
+    {
+      strict = this->attempt(this->Options.backgroundVotes, 0);
+    }
+    catch (const NothingSurvives&)
+    {
+      if (this->emptySilhouettes() > this->Options.backgroundVotes)
+      {
+        throw;
+      }
+      nothingSurvives = std::current_exception();
+    }
     const int least = this->Options.backgroundVotes;
     const int most =
       std::max(least, int(std::floor(this->Options.voteShare * this->Given->size() + 1e-9)));
-    this->StrictUncovered = strict.uncovered;
-    if (this->borne(strict))
+    this->StrictUncovered = strict ? strict->uncovered : 1.0;
+    if (strict && this->borne(*strict))
     {
-      return this->finished(std::move(strict));
+      return this->finished(std::move(*strict));
     }
     std::optional<TolerantCarving> voted, dilated;
     const auto withVotes = [&](int k) { return this->attemptOrNothing(k, 0); };
@@ -103,10 +117,13 @@ public:
       return this->finished(std::move(*voted));
     }
     const auto withDilation = [&](int radius) { return this->attemptOrNothing(most, radius); };
-    const double widest = this->Options.greatestDilation * pixelsPerOctant(*this->Given, strict.octree.lattice);
-    if (this->findLeast(0, int(std::floor(widest + 1e-9)), withDilation, dilated))
+    if (const auto& some = strict ? strict : voted)
     {
-      return this->finished(std::move(*dilated));
+      const double widest = this->Options.greatestDilation * pixelsPerOctant(*this->Given, some->octree.lattice);
+      if (this->findLeast(0, int(std::floor(widest + 1e-9)), withDilation, dilated))
+      {
+        return this->finished(std::move(*dilated));
+      }
     }
     for (auto* partly : { &voted, &dilated })
     {
@@ -115,10 +132,25 @@ public:
         return this->finished(std::move(**partly));
       }
     }
-    return this->finished(std::move(strict));
+    if (!strict)
+    {
+      std::rethrow_exception(nothingSurvives);
+    }
+    return this->finished(std::move(*strict));
   }
 
 private:
+  int emptySilhouettes() const
+  {
+    int empty = 0;
+    for (int view = 0; view < this->Given->size(); ++view)
+    {
+      const PreparedView& one = (*this->Given)[view];
+      empty += one.objectPixels(0, one.width, 0, one.height) == 0;
+    }
+    return empty;
+  }
+
   bool borne(const TolerantCarving& carving) const
   {
     return carving.uncovered <= this->Options.uncoveredShare;
@@ -155,7 +187,7 @@ private:
     return carving;
   }
 
-  /** More votes may leave the object without automatic bounds; then these are too many. */
+  /** More votes may leave the object without automatic bounds; then these are too many. Of few still nothing may survive. */
   std::optional<TolerantCarving> attemptOrNothing(int backgroundVotes, int dilation)
   {
     try
@@ -163,6 +195,10 @@ private:
       return this->attempt(backgroundVotes, dilation);
     }
     catch (const UnboundedObject&)
+    {
+      return std::nullopt;
+    }
+    catch (const NothingSurvives&)
     {
       return std::nullopt;
     }

@@ -60,8 +60,8 @@ using Carve = std::function<Octree(const PreparedViews& views, int backgroundVot
  * else the carving as strict as it was.
  *
  * A strict carving that is borne costs one carve and one measure; else the least is found by doubling and
- * halving. What `carve` throws of the strict octree is thrown on: a capture of which nothing survives is an
- * error. Throws InvalidInput for an option out of range, Cancelled.
+ * halving. What `carve` throws of the strict octree is thrown on, but where nothing survives of silhouettes that are
+ * not empty: that counts as all uncovered, and is thrown where no tolerance helps. Throws InvalidInput for an option out of range, Cancelled.
  */
 TolerantCarving carveTolerantly(std::shared_ptr<const PreparedViews> views, const Carve& carve,
   const CarvingToleranceOptions& options, Execution& execution);

@@ -24,6 +24,7 @@ namespace
 
 constexpr std::size_t BlockPoints = FieldViews::BlockPoints;
 constexpr double FinestShift = 0.1; ///< px: the contours of clean silhouettes seem shifted by up to two thirds of this
+constexpr int MostAlignments = 100;
 constexpr double SamplesPerOctant = 2.0; ///< of the silhouettes' distances: they are straight but for corners
 constexpr int MostHalvings = 3;          ///< between the lattice of the field and that of the octants
 constexpr double FinestSmoothing = 3.0;  ///< octants of the field's lattice
@@ -41,7 +42,7 @@ void check(const FieldCorrectionOptions& options)
   };
   require(options.smallestDeficit >= 0.0, "smallest deficit", options.smallestDeficit);
   require(options.smallestShift >= 0.0, "smallest shift", options.smallestShift);
-  require(options.alignments >= 1, "number of alignments", options.alignments);
+  require(options.alignments >= 1 && options.alignments <= MostAlignments, "number of alignments", options.alignments);
   require(options.modelDissent >= 0.0 && options.modelDissent <= 1.0, "model dissent", options.modelDissent);
   require(options.smoothing >= 0.0, "smoothing", options.smoothing);
   require(options.greatestSmoothing >= 0.0, "greatest smoothing", options.greatestSmoothing);

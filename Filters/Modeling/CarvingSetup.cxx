@@ -7,6 +7,7 @@
 #include "Error.h"
 #include "ProjectiveCameras.h"
 #include "ViewConversion.h"
+#include "ViewingCones.h"
 
 #include <Eigen/LU>
 
@@ -120,6 +121,44 @@ std::string silhouetteWarning(const PreparedView& view, const std::string& name)
   }
   const std::string sides = objects > 0 ? touchedSides(view) : std::string();
   return sides.empty() ? sides : name + ": the silhouette is cut by the image's border (" + sides + ")";
+}
+
+/** Views that have the object behind them: where the rays through the silhouettes' middles meet, their w is negative. */
+std::string lookingAwayWarning(const PreparedViews& views)
+{
+  std::vector<Projection> projections;
+  std::vector<Vector2> middles;
+  std::vector<int> seen;
+  for (int i = 0; i < views.size(); ++i)
+  {
+    const auto& box = views[i].objectBox;
+    if (box[1] >= box[0])
+    {
+      projections.push_back(views[i].projection);
+      middles.emplace_back(0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]));
+      seen.push_back(i);
+    }
+  }
+  if (seen.size() < 2)
+  {
+    return {};
+  }
+  const Vector3 object = nearestPointToRays(projections, middles);
+  int away = 0, first = -1;
+  for (std::size_t n = 0; n < seen.size() && object.allFinite(); ++n)
+  {
+    const bool isAway = projections[n].row(2).dot(object.homogeneous()) < 0.0;
+    away += isAway;
+    first = isAway && first < 0 ? seen[n] : first;
+  }
+  if (away == 0)
+  {
+    return {};
+  }
+  return std::to_string(away) + " of " + std::to_string(views.size()) +
+         " cameras have behind them what their silhouettes show (w < 0 where their rays meet), the first is that of " +
+         describeView(std::size_t(first), views[first].name) +
+         "; a camera's axes are right, down and forward, and a matrix is taken with its sign";
 }
 
 /** Few warnings apart, many as one: a line for each of hundreds of views would hide all others. */
@@ -252,6 +291,11 @@ std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice&
     warnings.push_back("only " + describeView(0, views[0].name) +
                        ": the object is bounded by the given box alone along the line of sight");
   }
+  std::string away = lookingAwayWarning(views);
+  if (!away.empty())
+  {
+    warnings.push_back(std::move(away));
+  }
   std::string projective = projectiveWarning(projections, names);
   if (!projective.empty())
   {
@@ -296,6 +340,15 @@ CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings
   carved.dilation = found.dilation;
   carved.uncovered = found.uncovered;
   carved.strictUncovered = found.strictUncovered;
+  constexpr double Doubtful = 0.05; // more than noise leaves
+  if (found.uncovered > Doubtful)
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << "the octree leaves " << 100.0 * found.uncovered
+         << " % of the silhouettes uncovered, more than noise does: a camera, or a silhouette, is probably wrong";
+    warn(text.str());
+  }
   if (settings.piece.count > 1)
   {
     const LatticeViews latticeViews(*carved.views, carved.octree.lattice);

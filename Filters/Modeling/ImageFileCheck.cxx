@@ -10,6 +10,7 @@
 #include <array>
 #include <cctype>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -31,6 +32,47 @@ std::uint32_t bigEndian(const Bytes& bytes, std::size_t at)
 {
   return byteAt(bytes, at) << 24 | byteAt(bytes, at + 1) << 16 | byteAt(bytes, at + 2) << 8 |
          byteAt(bytes, at + 3);
+}
+
+/** A number of some bytes, the lowest first; 0 beyond the end. */
+std::uint32_t littleEndian(const Bytes& bytes, std::size_t at, int count)
+{
+  std::uint32_t number = 0;
+  for (int n = count - 1; n >= 0 && at + std::size_t(count) <= bytes.size(); --n)
+  {
+    number = number << 8 | byteAt(bytes, at + std::size_t(n));
+  }
+  return number;
+}
+
+/** The orientation that Exif data tell, which begin as a TIFF file does; 1 where they tell none. */
+int exifOrientation(const Bytes& data)
+{
+  const bool isLittle = data.compare(0, 4, Bytes("II*\0", 4)) == 0;
+  if (!isLittle && data.compare(0, 4, Bytes("MM\0*", 4)) != 0)
+  {
+    return 1;
+  }
+  const auto number = [&](std::size_t at, int count) -> std::uint32_t
+  {
+    if (isLittle || at + std::size_t(count) > data.size())
+    {
+      return littleEndian(data, at, count);
+    }
+    return count == 4 ? bigEndian(data, at) : byteAt(data, at) << 8 | byteAt(data, at + 1);
+  };
+  const std::size_t first = number(4, 4);
+  constexpr std::uint32_t orientationTag = 0x112;
+  for (std::size_t entry = 0; entry < number(first, 2); ++entry)
+  {
+    const std::size_t at = first + 2 + 12 * entry;
+    if (number(at, 2) == orientationTag)
+    {
+      const std::uint32_t orientation = number(at + 8, 2);
+      return orientation >= 1 && orientation <= 8 ? int(orientation) : 1;
+    }
+  }
+  return 1;
 }
 
 /** The checksum of PNG's chunks: CRC-32 with the reflected polynomial 0xedb88320. */
@@ -163,6 +205,8 @@ class PngChunks
 public:
   explicit PngChunks(const Bytes& bytes) : Content(bytes) {}
 
+  int orientation() const { return this->Orientation; }
+
   std::string fault()
   {
     for (std::size_t at = 8; this->Content.size() - at >= 12;)
@@ -222,6 +266,10 @@ private:
       this->Pixels.append(this->Content, at, length);
       return {};
     }
+    if (type == "eXIf")
+    {
+      this->Orientation = exifOrientation(this->Content.substr(at, length));
+    }
     if (type == "IEND")
     {
       return this->imageFault();
@@ -255,18 +303,49 @@ private:
   bool Palette = false;
   Bytes Pixels; ///< compressed
   Bytes Before; ///< type of the chunk before
+  int Orientation = 1;
 };
 
-std::string jpegFault(const Bytes& bytes)
+ImageFileReport inspectJpeg(const Bytes& bytes)
 {
+  ImageFileReport report;
   // Segments up to the scan; in the scan 0xff is followed by 0, or by a marker.
   std::size_t at = 2;
   while (at + 4 <= bytes.size() && byteAt(bytes, at) == 0xff && byteAt(bytes, at + 1) != 0xda)
   {
     const bool fill = byteAt(bytes, at + 1) == 0xff;
+    if (byteAt(bytes, at + 1) == 0xe1 && bytes.compare(at + 4, 6, Bytes("Exif\0\0", 6)) == 0)
+    {
+      report.orientation = exifOrientation(bytes.substr(at + 10));
+    }
     at += fill ? 1 : 2 + (byteAt(bytes, at + 2) << 8 | byteAt(bytes, at + 3));
   }
-  return at < bytes.size() && bytes.find("\xff\xd9", at) != Bytes::npos ? "" : "it ends too soon";
+  report.fault = at < bytes.size() && bytes.find("\xff\xd9", at) != Bytes::npos ? "" : "it ends too soon";
+  return report;
+}
+
+std::string bmpFault(const Bytes& bytes)
+{
+  const bool isOld = littleEndian(bytes, 14, 4) == 12; // a header with sizes of 16 bits
+  const std::uint32_t bits = littleEndian(bytes, isOld ? 24 : 28, 2);
+  if (bits != 8 && bits != 24)
+  {
+    return "BMP of " + std::to_string(bits) + " bits a pixel; 8 and 24 are understood";
+  }
+  if (!isOld && littleEndian(bytes, 30, 4) != 0)
+  {
+    return "BMP that is compressed";
+  }
+  const auto width = std::int32_t(littleEndian(bytes, 18, isOld ? 2 : 4));
+  const auto height = std::int32_t(littleEndian(bytes, isOld ? 20 : 22, isOld ? 2 : 4)); // negative: the first row is the top
+  constexpr std::int32_t largest = 1000000;
+  if (width < 1 || width > largest || height == 0 || height < -largest || height > largest)
+  {
+    return "its header makes no sense";
+  }
+  const std::size_t row = (std::size_t(width) * bits + 31) / 32 * 4;
+  const bool isWhole = littleEndian(bytes, 10, 4) + row * std::size_t(std::abs(height)) <= bytes.size();
+  return isWhole ? "" : "it ends too soon";
 }
 
 std::string pnmFault(const Bytes& bytes)
@@ -302,23 +381,30 @@ std::string pnmFault(const Bytes& bytes)
 
 } // namespace
 
-std::string imageFileFault(const std::filesystem::path& file)
+ImageFileReport inspectImageFile(const std::filesystem::path& file)
 {
   std::ifstream stream(file, std::ios::binary);
   const Bytes bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  ImageFileReport report;
   if (bytes.compare(0, 8, "\x89PNG\r\n\x1a\n", 8) == 0)
   {
-    return PngChunks(bytes).fault();
+    PngChunks chunks(bytes);
+    report.fault = chunks.fault();
+    report.orientation = chunks.orientation();
   }
-  if (bytes.compare(0, 3, "\xff\xd8\xff") == 0)
+  else if (bytes.compare(0, 3, "\xff\xd8\xff") == 0)
   {
-    return jpegFault(bytes);
+    report = inspectJpeg(bytes);
   }
-  if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6')
+  else if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6')
   {
-    return pnmFault(bytes);
+    report.fault = pnmFault(bytes);
   }
-  return {};
+  else if (bytes.compare(0, 2, "BM") == 0)
+  {
+    report.fault = bmpFault(bytes);
+  }
+  return report;
 }
 
 } // namespace silhouette::modeling

@@ -17,6 +17,7 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnsignedShortArray.h"
 
+#include <algorithm>
 #include <string>
 
 namespace silhouette::modeling
@@ -31,7 +32,7 @@ template <typename Reader> vtkSmartPointer<vtkImageReader2> readerIfItFits(const
   return reader->CanReadFile(file) ? vtkSmartPointer<vtkImageReader2>(reader) : nullptr;
 }
 
-vtkSmartPointer<vtkImageReader2> makeReader(const std::filesystem::path& file)
+vtkSmartPointer<vtkImageReader2> makeReader(const std::filesystem::path& file, std::vector<std::string>& warnings)
 {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
@@ -39,10 +40,15 @@ vtkSmartPointer<vtkImageReader2> makeReader(const std::filesystem::path& file)
     throw InvalidInput("cannot read image " + file.string() + ": no such file");
   }
   const std::string name = file.string();
-  const std::string fault = imageFileFault(file);
-  if (!fault.empty())
+  const ImageFileReport report = inspectImageFile(file);
+  if (!report.fault.empty())
   {
-    throw InvalidInput("cannot read image " + name + ": " + fault);
+    throw InvalidInput("cannot read image " + name + ": " + report.fault);
+  }
+  if (report.orientation != 1)
+  {
+    warnings.push_back("image " + name + ": its Exif orientation is " + std::to_string(report.orientation) +
+                       ", not 1; its pixels are taken as they are stored, and so has its matrix to be");
   }
   using Candidate = vtkSmartPointer<vtkImageReader2> (*)(const char*);
   for (const Candidate candidate :
@@ -64,9 +70,12 @@ void eightBits(vtkUnsignedShortArray* wide, vtkImageData* image)
   vtkNew<vtkUnsignedCharArray> narrow;
   narrow->SetNumberOfComponents(wide->GetNumberOfComponents());
   narrow->SetNumberOfTuples(wide->GetNumberOfTuples());
-  for (vtkIdType i = 0; i < wide->GetNumberOfValues(); ++i)
+  const unsigned short* values = wide->GetPointer(0);
+  const vtkIdType count = wide->GetNumberOfValues();
+  const bool isBinary = std::all_of(values, values + count, [](unsigned short value) { return value <= 1; }); // 1 is object
+  for (vtkIdType i = 0; i < count; ++i)
   {
-    narrow->SetValue(i, static_cast<unsigned char>((wide->GetValue(i) + 128u) / 257u));
+    narrow->SetValue(i, static_cast<unsigned char>(isBinary ? values[i] : (values[i] + 128u) / 257u));
   }
   image->GetPointData()->SetScalars(narrow);
 }
@@ -79,7 +88,7 @@ vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file, std::
   {
     return readTiff(file);
   }
-  const auto reader = makeReader(file);
+  const auto reader = makeReader(file, warnings);
   const MessageListener listener({reader, reader->GetExecutive()});
   reader->Update();
   if (listener.heardError() || reader->GetErrorCode() != 0)
@@ -117,7 +126,8 @@ std::array<int, 2> readImageSize(const std::filesystem::path& file)
   {
     return readTiffSize(file);
   }
-  const auto reader = makeReader(file);
+  std::vector<std::string> ignored;
+  const auto reader = makeReader(file, ignored);
   const MessageListener listener({reader, reader->GetExecutive()});
   reader->UpdateInformation();
   if (listener.heardError())

@@ -19,8 +19,9 @@ namespace silhouette::modeling
 {
 
 /**
- * An image of 8 bits a channel; 16-bit values are divided by 257. What the reader warns of, data that is
- * damaged but was read, is added to `warnings`, naming the file. Throws InvalidInput, naming the file and
+ * An image of 8 bits a channel; 16-bit values are divided by 257, but for those of
+ * an image of zeros and ones. What the reader warns of, data that is
+ * damaged but was read, is added to `warnings`, naming the file; so is an Exif orientation, which is not applied. Throws InvalidInput, naming the file and
  * what the reader said: no such file, no format that is understood, an error while decoding, other than one
  * 2D image of 8 or 16 bits.
  */

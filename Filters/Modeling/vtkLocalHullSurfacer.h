@@ -341,7 +341,7 @@ public:
   ///@}
 
   ///@{
-  /** AlignViews: rounds of shifting, at least 1, default 2. Larger comes closer and costs in proportion. */
+  /** AlignViews: rounds of shifting, 1 to 100, default 2. Larger comes closer and costs in proportion. */
   vtkSetMacro(Alignments, int);
   vtkGetMacro(Alignments, int);
   ///@}

@@ -97,6 +97,20 @@ TEST(CameraFiles, WrongCountsAndNames)
   EXPECT_TRUE(holds(listError("\"\"" + Identity), "line 1: the image name is empty"));
 }
 
+TEST(CameraFiles, OthersFilesAreCalledByTheirNames)
+{
+  for (const auto& [bytes, kind] :
+       {std::pair("{\n  \"frames\": []\n}", "NeRF"), {"<?xml version=\"1.0\"?>", "Metashape"}, {"%YAML:1.0\n---", "OpenCV"},
+        {"CONTOUR\n1 0 0 0", "PMVS"}, {"# Camera list with one line of data per camera:\n1 PINHOLE 4 4 1 1 2 2\n", "cameras.txt"},
+        {"# Image list with two lines of data per image:\n", "images.txt"}})
+  {
+    const std::string error = listError(bytes);
+    EXPECT_TRUE(holds(error, kind)) << error;
+    EXPECT_TRUE(holds(error, "projections.txt: this looks like")) << error;
+    EXPECT_TRUE(holds(error, "undistorted")) << error;
+  }
+}
+
 TEST(CameraFiles, GarbageIsRefusedNotObeyed)
 {
   std::mt19937 generator(7);

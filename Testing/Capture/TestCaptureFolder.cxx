@@ -77,6 +77,46 @@ TEST(CaptureFolder, PhotographsBesideTheCameraFile)
   EXPECT_TRUE(capture.warnings.empty());
 }
 
+TEST(CaptureFolder, NamesThatLeadElsewhere)
+{
+  const TemporaryFolder folder, other;
+  const std::string own = folder.path().string(), elsewhere = other.path().string();
+  folder.write("projections.txt", own + "/images/a.png" + P + "./images/b.png" + P + "./c.png" + P + elsewhere + "/d.png" + P);
+  for (const char* name : {"a", "b", "c"})
+  {
+    folder.write(std::string("images/") + name + ".png");
+    folder.write(std::string("masks/") + name + ".png");
+  }
+  other.write("d.png");
+  folder.write("masks/d.pgm");
+  const CaptureDescription capture = describeCapture(folder.path());
+  EXPECT_TRUE(capture.warnings.empty());
+  for (int i = 0; i < 3; ++i)
+  {
+    const std::string name = std::string(1, char('a' + i)) + ".png";
+    EXPECT_EQ(capture.entries.at(i).photograph, folder.path() / "images" / name);
+    EXPECT_EQ(capture.entries.at(i).mask, folder.path() / "masks" / name);
+  }
+  EXPECT_EQ(capture.entries.at(3).photograph, other.path() / "d.png");
+  EXPECT_EQ(capture.entries.at(3).mask, folder.path() / "masks" / "d.pgm") << "not the photograph itself";
+}
+
+TEST(CaptureFolder, MasksThatNoViewFinds)
+{
+  const TemporaryFolder folder;
+  folder.write("projections.txt", "a.jpg" + P + "b.jpg" + P);
+  folder.write("images/a.jpg");
+  folder.write("images/b.jpg");
+  folder.write("masks/a.png");
+  EXPECT_TRUE(describeCapture(folder.path()).warnings.empty()) << "a view without a mask may be meant";
+  folder.write("masks/b_mask.png");
+  folder.write("masks/notes.txt");
+  const CaptureDescription capture = describeCapture(folder.path());
+  ASSERT_EQ(capture.warnings.size(), 1u);
+  EXPECT_TRUE(holds(capture.warnings[0], "masks: 'b_mask.png' is the mask of no view, and view 'b.jpg' has none"));
+  EXPECT_TRUE(describeCapture(folder.path(), withViews("0")).warnings.empty());
+}
+
 TEST(CaptureFolder, MasksOnly)
 {
   const TemporaryFolder folder;
@@ -103,6 +143,8 @@ TEST(CaptureFolder, MiddleburyAndItsGoodSilhouettes)
   EXPECT_EQ(namesOf(capture), (std::vector<std::string>{"a.png", "c.png"}));
   EXPECT_EQ(namesOf(describeCapture(folder.path(), withViews("1-2"))),
             (std::vector<std::string>{"b.png", "c.png"}));
+  folder.write("x_good_silhouette_images.txt", "a.png c.png\n");
+  EXPECT_EQ(namesOf(describeCapture(folder.path())), (std::vector<std::string>{"a.png", "c.png"})) << "several on a line";
   folder.write("x_good_silhouette_images.txt", "a.png\n\nz.png\n");
   EXPECT_TRUE(
       holds(errorIn(folder), "x_good_silhouette_images.txt line 3: 'z.png' is not a view of x_par.txt"));

@@ -103,14 +103,13 @@ TEST(ProjectiveCameras, Warnings)
   EXPECT_EQ(projectiveWarning(clean), "");
   EXPECT_EQ(projectiveWarning({}), "");
   EXPECT_EQ(projectiveWarning(mirrored(clean)), "3 of 3 projections are mirrored (negative determinant); the "
-                                                "first is view 0. The mesh fits the photographs, "
+                                                "first is view 0. If the matrices are right, the mesh fits the photographs, "
                                                 "but its handedness differs from the object's");
   std::vector<Projection> one = clean;
   one[1] = ring(3, intrinsics(1200, 800, 0))[1];
   EXPECT_EQ(projectiveWarning(one, {"a.png", "b.png", "c.png"}),
             "1 of 3 projections are not metric (fx : fy = 1.5, skew : fx = 0); the first is view 'b.png'. "
-            "The mesh fits the "
-            "photographs, but its lengths and angles differ from the object's");
+            "Where others are as they should be, such a matrix is probably wrong");
   EXPECT_TRUE(holds(projectiveWarning(ring(3, intrinsics(800, 800, 200))), "skew : fx = 0.25"));
   EXPECT_TRUE(
       holds(projectiveWarning(mirrored(ring(3, intrinsics(1200, 800, 0)))), "and 3 of 3 projections"));

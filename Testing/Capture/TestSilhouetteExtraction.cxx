@@ -166,12 +166,16 @@ TEST(SilhouetteExtraction, AlphaThatSaysSomethingIsTheSilhouette)
 TEST(SilhouetteExtraction, PhotographsAreRefusedWithAdvice)
 {
   EXPECT_EQ(refusal(row(3, {1, 2, 3, 40, 50, 60, 200, 100, 0})),
-            "view 'a.png': a photograph without a mask or alpha is no silhouette; say what its background is "
-            "with --key, "
-            "--background, --threshold or --alpha");
+            "view 'a.png': a photograph without a mask or alpha is no silhouette; say what its background is: "
+            "by a key channel, a colour, a threshold or its alpha");
   EXPECT_TRUE(holds(refusal(row(1, {0, 127, 255})), "a photograph without a mask"));
   EXPECT_TRUE(holds(refusal(row(1, {0, 100, 0})),
                     "view 'a.png': an image of two colours, but both are on the same side"));
+  for (const unsigned char value : {2, 15, 100, 127})
+  {
+    const std::string of = errorOf([&] { extractSilhouette(row(1, {0, value, 0}), {}, true, "a.png"); });
+    EXPECT_TRUE(holds(of, "both are on the same side of 127")) << int(value) << ": a mask, too";
+  }
   EXPECT_TRUE(holds(refusal(row(3, {0, 0, 255, 255, 0, 0})), "both are on the same side of 127"));
 }
 

@@ -36,6 +36,18 @@ TEST(ViewSelection, NamesIndicesAndRanges)
   EXPECT_EQ(selected("c.d.jpg"), (std::vector<int>{5}));
 }
 
+TEST(ViewSelection, ImagesThatAreCalledByNumbers)
+{
+  const std::vector<std::string> names = {"1.png", "2.png", "3.png", "4.png"};
+  EXPECT_EQ(selectViews("1-2", names), (std::vector<int>{1, 2}));
+  EXPECT_EQ(selectViews("2.png,4", names), (std::vector<int>{1, 3})) << "4 is no index";
+  EXPECT_EQ(selectViews("0", names), (std::vector<int>{0})) << "0 is no image";
+  EXPECT_EQ(errorOf([&] { selectViews("0,2", names); }),
+            "views: '2' is the image '2.png', and the index of '3.png'; write the whole name, or 2-2");
+  const std::vector<std::string> same = {"0.png", "1.png"};
+  EXPECT_EQ(selectViews("1", same), (std::vector<int>{1}));
+}
+
 TEST(ViewSelection, Errors)
 {
   EXPECT_EQ(error("0,x.png"),

@@ -58,7 +58,7 @@ class Wrong(ProgramTest):
     def test_outputs(self):
         self.wrong(["--output", "mesh.xyz", "vtp, ply, stl or obj"], "reconstruct", self.capture, "-o",
                    self.folder / "mesh.xyz")
-        self.wrong_reconstruct(["two outputs", "x.ply"], "--metrics", self.folder / "x.ply")
+        self.wrong_reconstruct(["--metrics", "x.ply", "does not end in .json"], "--metrics", self.folder / "x.ply")
 
     def test_synthesize(self):
         target = self.folder / "new"

@@ -150,6 +150,28 @@ TEST(CarvingTolerance, TooManyVotesToBoundTheObjectAreTooMany)
   EXPECT_THROW(carveTolerantly(views, never, {}, execution), NothingSurvives);
 }
 
+TEST(CarvingTolerance, OfWhichNothingSurvivesStrictly)
+{
+  Execution execution;
+  auto views = rodOnSlab();
+  std::fill(views[3].silhouette.pixels.begin(), views[3].silhouette.pixels.end(), std::uint8_t(0));
+  views[3].silhouette.at(2, 2) = 1; // what no other view has there
+  EXPECT_THROW(carveViews(prepareViews(views), unitCube(), 6, 0), NothingSurvives);
+  const TolerantCarving carving = tolerant(views);
+  EXPECT_EQ(carving.octree.backgroundVotes, 1);
+  EXPECT_EQ(carving.strictUncovered, 1.0);
+  EXPECT_LT(carving.uncovered, 0.001) << "the one pixel is a speck";
+
+  // What is empty is not noisy.
+  views[3].silhouette.at(2, 2) = 0;
+  EXPECT_THROW(tolerant(views), NothingSurvives);
+  CarvingToleranceOptions strict;
+  strict.voteShare = 0.0;
+  strict.greatestDilation = 0.0;
+  views[3].silhouette.at(2, 2) = 1;
+  EXPECT_THROW(tolerant(views, strict), NothingSurvives);
+}
+
 TEST(CarvingTolerance, DilationIsADiscAboutEachPixel)
 {
   Random random(5);

@@ -425,6 +425,8 @@ TEST(FieldCorrection, OptionsOutOfRangeAreErrorsThatNameTheValue)
   options = {};
   options.alignments = 0;
   expectError(options, "0");
+  options.alignments = 101;
+  expectError(options, "0");
   options.alignments = -3;
   expectError(options, "-3");
 }

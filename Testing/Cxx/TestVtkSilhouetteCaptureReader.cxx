@@ -401,6 +401,49 @@ TEST_F(VtkSilhouetteCaptureReader, RefusesPngFilesThatLibpngWouldGiveUp)
   expectSize(png, 9, 2);
 }
 
+TEST_F(VtkSilhouetteCaptureReader, WarnsOfOrientationsThatItDoesNotApply)
+{
+  fs::remove_all(this->Folder / "masks");
+  fs::create_directories(this->Folder / "masks");
+  this->Reader->SetViews("2");
+  const auto exif = [](int orientation, bool isLittle)
+  {
+    // A TIFF header, and one entry: tag 0x112, a short.
+    const std::string little = std::string("II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0", 18) + char(orientation) + std::string(7, '\0');
+    const std::string big = std::string("MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0", 19) + char(orientation) + std::string(6, '\0');
+    return isLittle ? little : big;
+  };
+  const auto expectWarnings = [&](int orientation)
+  {
+    const Listener listener(this->Reader);
+    this->Reader->Modified();
+    this->Reader->Update();
+    ASSERT_EQ(this->Reader->GetOutput()->GetNumberOfPartitionedDataSets(), 1u);
+    EXPECT_EQ(listener.Warnings.size(), orientation == 1 ? 0u : 1u);
+    EXPECT_EQ(listener.warnings("Exif orientation is " + std::to_string(orientation)), orientation == 1 ? 0 : 1);
+  };
+  const fs::path jpeg = this->Folder / "masks/disc2.jpg", png = this->Folder / "masks/disc2.png";
+  writeImage<vtkJPEGWriter>(discImage(64, 20.0), jpeg);
+  std::ifstream stream(jpeg, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  for (const int orientation : {1, 3, 6, 8})
+  {
+    for (const bool isLittle : {true, false})
+    {
+      const std::string data = std::string("Exif\0\0", 6) + exif(orientation, isLittle);
+      std::ofstream(jpeg, std::ios::binary) << whole.substr(0, 2) << "\xff\xe1" << '\0' << char(data.size() + 2) << data << whole.substr(2);
+      expectWarnings(orientation);
+    }
+  }
+  std::ofstream(jpeg, std::ios::binary) << whole.substr(0, 2) << "\xff\xe1" << std::string("\0\x10" "Exif\0\0II*\0\xff\xff\xff\xff", 16) << whole.substr(2);
+  expectWarnings(1); // it leads nowhere
+  fs::remove(jpeg);
+  PngFile file;
+  file.before = PngFile::chunk("eXIf", exif(6, false));
+  std::ofstream(png, std::ios::binary) << file.bytes();
+  expectWarnings(6);
+}
+
 TEST_F(VtkSilhouetteCaptureReader, SurvivesBrokenImages)
 {
   // Each format whole, then cut short at many places, then with a byte changed.
@@ -444,6 +487,34 @@ TEST_F(VtkSilhouetteCaptureReader, SurvivesBrokenImages)
   tryAll(this->Folder / "masks/disc2.tif");
   std::ofstream(this->Folder / "masks/disc2.pgm") << "P5 2 2 65535\n12345678";
   expectError(this->Reader, {"disc2.pgm", "more than 8 bits"});
+  const auto writeBmp = [&](int bits, int compression)
+  {
+    std::string bytes(14 + 40 + 8 + 64, '\0'); // two colours, and room for eight rows of eight bytes
+    bytes[0] = 'B';
+    bytes[1] = 'M';
+    bytes[10] = 14 + 40 + 8;
+    bytes[14] = 40;
+    bytes[18] = bytes[22] = 8;
+    bytes[26] = 1;
+    bytes[28] = char(bits);
+    bytes[30] = char(compression);
+    std::ofstream(this->Folder / "masks/disc2.bmp", std::ios::binary) << bytes;
+  };
+  fs::remove(this->Folder / "masks/disc2.pgm");
+  for (const int bits : {1, 4, 16, 32, 0})
+  {
+    writeBmp(bits, 0);
+    expectError(this->Reader, {"disc2.bmp", "BMP of " + std::to_string(bits) + " bits a pixel; 8 and 24 are understood"});
+  }
+  writeBmp(8, 1);
+  expectError(this->Reader, {"disc2.bmp", "compressed"});
+  writeBmp(8, 0);
+  this->Reader->Modified();
+  this->Reader->Update();
+  EXPECT_EQ(this->Reader->GetOutput()->GetNumberOfPartitionedDataSets(), 1u);
+  writeBmp(24, 0);
+  expectError(this->Reader, {"disc2.bmp", "too soon"});
+  fs::remove(this->Folder / "masks/disc2.bmp");
   std::ofstream(this->Folder / "masks/disc2.pgm") << "P2\n2 2\n255\n0 1 2 3\n";
   expectError(this->Reader, {"disc2.pgm", "P5 and P6"});
 }

@@ -2,6 +2,7 @@
 #include "vtkSilhouetteOctreeSource.h"
 
 #include "ModelingTesting.h"
+#include "vtkPartitionedDataSet.h"
 
 #include "vtkBitArray.h"
 #include "vtkCellData.h"
@@ -442,6 +443,56 @@ TEST(VtkSilhouetteOctreeSource, WarnsAndGoesOn)
   one->SetBounds(-1.5, 1.5, -1.5, 1.5, -1.5, 1.5);
   one->AddView(discImage(ImageSize, 30.0), camera.data(), "single");
   warned(one, {"only view 0 (single)", "cut by the root cube's border"});
+}
+
+TEST(VtkSilhouetteOctreeSource, WarnsOfCamerasThatLookAway)
+{
+  for (const int count : {1, 8})
+  {
+    auto source = ringSource();
+    auto views = ringViews();
+    for (int i = 0; i < count; ++i)
+    {
+      auto* image = vtkImageData::SafeDownCast(views->GetPartition(unsigned(8 - count + i), 0));
+      Matrix p;
+      image->GetFieldData()->GetArray("Projection")->GetTuple(0, p.data());
+      for (double& number : p)
+      {
+        number = -number;
+      }
+      setProjection(image, p);
+    }
+    source->SetInputData(views);
+    source->SetAutomaticBounds(false);
+    source->SetBounds(-1.5, 1.5, -1.5, 1.5, -1.5, 1.5);
+    const Listener listener(source);
+    source->Update();
+    EXPECT_EQ(listener.warnings(std::to_string(count) + " of 8 cameras have behind them what their silhouettes show"), 1);
+    EXPECT_EQ(listener.warnings(count == 1 ? "(disc7.png)" : "(disc0.png)"), 1);
+  }
+}
+
+TEST(VtkSilhouetteOctreeSource, WarnsOfWhatNoToleranceExplains)
+{
+  auto source = ringSource();
+  auto views = ringViews();
+  for (const unsigned int i : {2u, 5u}) // discs a third as large as they have to be
+  {
+    vtkDataObject* before = views->GetPartitionAsDataObject(i, 0);
+    auto image = discImage(ImageSize, 12.0);
+    image->GetFieldData()->PassData(before->GetFieldData());
+    views->GetPartitionedDataSet(i)->SetPartition(0, image);
+  }
+  source->SetInputData(views);
+  source->SetAutomaticTolerance(true);
+  const Listener listener(source);
+  source->Update();
+  EXPECT_TRUE(listener.Errors.empty());
+  EXPECT_EQ(listener.warnings("% of the silhouettes uncovered, more than noise does"), 1);
+  source->SetInputData(ringViews());
+  const Listener silent(source);
+  source->Update();
+  EXPECT_TRUE(silent.Warnings.empty());
 }
 
 TEST(VtkSilhouetteOctreeSource, WarnsOnceOfProjectiveCaptures)

@@ -3,11 +3,11 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkTriangle.h"
 
 #include <algorithm>
 #include <map>
@@ -63,10 +63,12 @@ private:
   std::vector<vtkIdType> Parent;
 };
 
-/** Area by component, the component named by its lowest point. */
-std::map<vtkIdType, double> areas(vtkPolyData* triangles, PointSets& sets)
+/** Volume by component, the component named by its lowest point; that of a cavity's wall is negative. */
+std::map<vtkIdType, double> volumes(vtkPolyData* triangles, PointSets& sets)
 {
-  std::map<vtkIdType, double> areas;
+  std::map<vtkIdType, double> volumes;
+  double middle[3];
+  triangles->GetCenter(middle);
   const auto cells = vtk::TakeSmartPointer(triangles->GetPolys()->NewIterator());
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
   {
@@ -77,10 +79,11 @@ std::map<vtkIdType, double> areas(vtkPolyData* triangles, PointSets& sets)
     for (int i = 0; i < 3; ++i)
     {
       triangles->GetPoint(points[i], corners[i]);
+      vtkMath::Subtract(corners[i], middle, corners[i]);
     }
-    areas[sets.find(points[0])] += vtkTriangle::TriangleArea(corners[0], corners[1], corners[2]);
+    volumes[sets.find(points[0])] += vtkMath::Determinant3x3(corners[0], corners[1], corners[2]) / 6.0;
   }
-  return areas;
+  return volumes;
 }
 
 /** New numbers for the points of one component, -1 for the others; the points themselves go to `kept`. */
@@ -108,19 +111,19 @@ std::vector<vtkIdType> keepPoints(vtkPolyData* triangles, PointSets& sets, vtkId
 vtkIdType countComponents(vtkPolyData* triangles)
 {
   PointSets sets(triangles);
-  return static_cast<vtkIdType>(areas(triangles, sets).size());
+  return static_cast<vtkIdType>(volumes(triangles, sets).size());
 }
 
 vtkSmartPointer<vtkPolyData> largestComponent(vtkPolyData* triangles)
 {
   PointSets sets(triangles);
-  const std::map<vtkIdType, double> byArea = areas(triangles, sets);
+  const std::map<vtkIdType, double> byVolume = volumes(triangles, sets);
   auto kept = vtkSmartPointer<vtkPolyData>::New();
-  if (byArea.empty())
+  if (byVolume.empty())
   {
     return kept;
   }
-  const auto largest = std::max_element(byArea.begin(), byArea.end(),
+  const auto largest = std::max_element(byVolume.begin(), byVolume.end(),
     [](const auto& first, const auto& second) { return first.second < second.second; });
   const std::vector<vtkIdType> numbers = keepPoints(triangles, sets, largest->first, kept);
   vtkNew<vtkCellArray> faces;

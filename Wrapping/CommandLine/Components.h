@@ -15,8 +15,8 @@ namespace silhouette::program
 vtkIdType countComponents(vtkPolyData* triangles);
 
 /**
- * The component of the largest area, with the points that it uses; points and triangles keep their order and the
- * points their precision. Of two equal ones the first.
+ * The component that encloses the largest volume, with the points that it uses; points and triangles keep their order
+ * and the points their precision. Of two equal ones the first. What noise leaves may have more area than the object.
  */
 vtkSmartPointer<vtkPolyData> largestComponent(vtkPolyData* triangles);
 

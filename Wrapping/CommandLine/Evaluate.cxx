@@ -5,6 +5,7 @@
 #include "ExitCodes.h"
 #include "MeshFiles.h"
 #include "Metrics.h"
+#include "OutputChecks.h"
 #include "OutputFiles.h"
 #include "Stages.h"
 
@@ -90,6 +91,7 @@ Evaluate::Evaluate(CLI::App& program)
 void Evaluate::finish()
 {
   this->Silhouettes.finish();
+  checkExtension("--metrics", this->MetricsFile, ".json");
 }
 
 void Evaluate::run()
@@ -98,10 +100,7 @@ void Evaluate::run()
   {
     vtkSMPTools::Initialize(this->Threads);
   }
-  if (!this->MetricsFile.empty())
-  {
-    checkWritable(this->MetricsFile);
-  }
+  checkOutputs({ this->MetricsFile }, this->Capture, { this->Mesh, this->Truth });
   Stages stages(this->Quiet);
   vtkNew<vtkSilhouetteCaptureReader> reader;
   vtkNew<vtkSilhouetteExtractor> extractor;
@@ -135,7 +134,9 @@ void Evaluate::run()
   addCost(metrics, stages.seconds());
   if (!this->MetricsFile.empty())
   {
-    writeMetrics(metrics, this->MetricsFile);
+    StagedFile file(this->MetricsFile);
+    writeMetrics(metrics, file);
+    file.commit();
   }
   if (!this->Quiet)
   {

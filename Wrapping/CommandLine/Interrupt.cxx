@@ -4,6 +4,7 @@
 #include "ExitCodes.h"
 
 #include <csignal>
+#include <ctime>
 
 namespace silhouette::program
 {
@@ -11,10 +12,28 @@ namespace
 {
 
 volatile std::sig_atomic_t interrupted = 0;
+timespec whenInterrupted = {};
 
-extern "C" void rememberInterrupt(int)
+double secondsSince(const timespec& then)
 {
-  interrupted = 1;
+  timespec now = {};
+  clock_gettime(CLOCK_MONOTONIC, &now); // may be called in a handler
+  return double(now.tv_sec - then.tv_sec) + 1e-9 * double(now.tv_nsec - then.tv_nsec);
+}
+
+extern "C" void rememberInterrupt(int signal)
+{
+  constexpr double one = 0.5; // seconds
+  if (interrupted == 0)
+  {
+    clock_gettime(CLOCK_MONOTONIC, &whenInterrupted);
+    interrupted = 1;
+  }
+  else if (secondsSince(whenInterrupted) > one)
+  {
+    std::signal(signal, SIG_DFL);
+    raise(signal);
+  }
 }
 
 } // namespace
@@ -31,7 +50,7 @@ void watchForInterrupts()
     }
     struct sigaction action = {};
     action.sa_handler = rememberInterrupt;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART); // the second one finds the default action
+    action.sa_flags = static_cast<int>(SA_RESTART);
     sigaction(signal, &action, nullptr);
   }
 }

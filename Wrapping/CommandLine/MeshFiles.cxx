@@ -2,9 +2,12 @@
 #include "MeshFiles.h"
 
 #include "ExitCodes.h"
+#include "MeshFileCheck.h"
 #include "ObjFile.h"
 #include "Stages.h"
 
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
 #include "vtkNew.h"
@@ -20,6 +23,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -110,6 +114,44 @@ void writeWith(vtkPolyData* mesh, const std::filesystem::path& file, void (*setU
   runQuietly(writer.Get(), "cannot write mesh " + file.string(), [&] { writer->Write(); });
 }
 
+/** Throws where a check has found a fault. */
+void refuse(const std::filesystem::path& file, const std::string& fault)
+{
+  if (!fault.empty())
+  {
+    throw ProgramError(FileFailed, "cannot read mesh " + file.string() + ": " + fault);
+  }
+}
+
+/** Throws where a point is not finite, or a cell names one that there is not. */
+void checkNumbers(const std::filesystem::path& file, vtkPolyData* mesh)
+{
+  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+  {
+    double at[3];
+    mesh->GetPoint(point, at);
+    if (!std::isfinite(at[0]) || !std::isfinite(at[1]) || !std::isfinite(at[2]))
+    {
+      refuse(file, "point " + std::to_string(point) + " is not finite");
+    }
+  }
+  auto cells = vtk::TakeSmartPointer(mesh->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    cells->GetCurrentCell(size, corners);
+    for (vtkIdType corner = 0; corner < size; ++corner)
+    {
+      if (corners[corner] < 0 || corners[corner] >= mesh->GetNumberOfPoints())
+      {
+        refuse(file, "face " + std::to_string(cells->GetCurrentCellId()) + " names point " + std::to_string(corners[corner]) + ", there are " +
+            std::to_string(mesh->GetNumberOfPoints()));
+      }
+    }
+  }
+}
+
 vtkSmartPointer<vtkPolyData> readByFormat(const std::filesystem::path& file)
 {
   const std::string format = formatOf(file);
@@ -119,10 +161,12 @@ vtkSmartPointer<vtkPolyData> readByFormat(const std::filesystem::path& file)
   }
   if (format == "ply")
   {
+    refuse(file, plyFault(file));
     return readPly(file);
   }
   if (format == "stl")
   {
+    refuse(file, stlFault(file));
     return readWith<vtkSTLReader>(file);
   }
   if (format == "obj")
@@ -158,8 +202,10 @@ vtkSmartPointer<vtkPolyData> readMesh(const std::filesystem::path& file)
   {
     throw ProgramError(FileFailed, "cannot read mesh " + file.string() + ": not a file that can be opened");
   }
+  const vtkSmartPointer<vtkPolyData> read = readByFormat(file);
+  checkNumbers(file, read);
   vtkNew<vtkTriangleFilter> triangles;
-  triangles->SetInputData(readByFormat(file));
+  triangles->SetInputData(read);
   triangles->PassVertsOff();
   triangles->PassLinesOff();
   triangles->Update();

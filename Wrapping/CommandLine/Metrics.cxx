@@ -236,7 +236,7 @@ void addCost(Metrics& metrics, const std::vector<std::pair<std::string, double>>
   metrics["peak_memory_mib"] = memoryMiB();
 }
 
-void writeMetrics(const Metrics& metrics, const std::filesystem::path& file)
+void writeMetrics(const Metrics& metrics, const StagedFile& file)
 {
   // Names of files may be no UTF-8; they must not cost the metrics.
   writeText(file, metrics.dump(2, ' ', false, Metrics::error_handler_t::replace) + "\n");

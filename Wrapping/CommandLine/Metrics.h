@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +19,8 @@ class vtkTable;
 
 namespace silhouette::program
 {
+
+class StagedFile;
 
 using Metrics = nlohmann::ordered_json;
 
@@ -46,8 +47,8 @@ void addTruth(Metrics& metrics, vtkTable* evaluation);
 /** seconds by stage and in total, peak_memory_mib. */
 void addCost(Metrics& metrics, const std::vector<std::pair<std::string, double>>& seconds);
 
-/** Throws ProgramError (FileFailed), or Interrupted. */
-void writeMetrics(const Metrics& metrics, const std::filesystem::path& file);
+/** Throws ProgramError (FileFailed). */
+void writeMetrics(const Metrics& metrics, const StagedFile& file);
 
 /** In a few lines for people; each ends with a line break. */
 std::string describeMesh(const Metrics& metrics);

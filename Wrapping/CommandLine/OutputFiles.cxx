@@ -137,6 +137,11 @@ StagedFile::~StagedFile()
 void StagedFile::commit()
 {
   checkInterrupt();
+  this->place();
+}
+
+void StagedFile::place()
+{
   std::error_code error;
   fs::rename(this->Temporary, this->Target, error);
   if (error)
@@ -144,6 +149,20 @@ void StagedFile::commit()
     failWriting(this->Target, error.message());
   }
   this->Temporary.clear();
+}
+
+StagedFile& StagedFiles::add(const fs::path& target)
+{
+  return this->Files.emplace_back(target);
+}
+
+void StagedFiles::commit()
+{
+  checkInterrupt();
+  for (StagedFile& file : this->Files)
+  {
+    file.place();
+  }
 }
 
 StagedFolder::StagedFolder(const fs::path& target, bool replace)
@@ -210,16 +229,21 @@ void StagedFolder::commit()
   this->Temporary = old; // what is removed at the end
 }
 
-void writeText(const fs::path& file, const std::string& text)
+void writeText(const StagedFile& file, const std::string& text)
 {
-  StagedFile staged(file);
-  std::ofstream stream(staged.path(), std::ios::binary);
+  std::ofstream stream(file.path(), std::ios::binary);
   stream << text;
   stream.close();
   if (!stream)
   {
-    failWriting(file, "not all of it was written; is the disk full?");
+    failWriting(file.target(), "not all of it was written; is the disk full?");
   }
+}
+
+void writeText(const fs::path& file, const std::string& text)
+{
+  StagedFile staged(file);
+  writeText(staged, text);
   staged.commit();
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <list>
 #include <string>
 
 namespace silhouette::program
@@ -34,8 +35,25 @@ public:
   void commit();
 
 private:
+  friend class StagedFiles;
+  void place();
+
   std::filesystem::path Target;
   std::filesystem::path Temporary;
+};
+
+/** Files that come together: none is seen before all are there. */
+class StagedFiles
+{
+public:
+  /** One more; stays as long as this. Throws as StagedFile does. */
+  StagedFile& add(const std::filesystem::path& target);
+
+  /** Puts all files in their places, without asking for interrupts between. Throws as StagedFile::commit(). */
+  void commit();
+
+private:
+  std::list<StagedFile> Files;
 };
 
 /** A folder on its way, in the same manner. */
@@ -60,6 +78,9 @@ private:
   std::filesystem::path Target;
   std::filesystem::path Temporary;
 };
+
+/** Write `text` to a file on its way. Throws ProgramError (FileFailed). */
+void writeText(const StagedFile& file, const std::string& text);
 
 /** Write `text` to a file, all or nothing. Throws ProgramError (FileFailed), or Interrupted. */
 void writeText(const std::filesystem::path& file, const std::string& text);

@@ -4,10 +4,10 @@
 #include "Arguments.h"
 #include "ExitCodes.h"
 #include "MeshFiles.h"
+#include "OutputChecks.h"
 #include "Reconstruction.h"
 
 #include <limits>
-#include <set>
 
 namespace silhouette::program
 {
@@ -184,7 +184,7 @@ void Reconstruct::addSurface()
     ->capture_default_str()
     ->group(group);
   this->App
-    ->add_flag("--largest", this->Options.largest, "Keep the component of the largest area only; octants given up with "
+    ->add_flag("--largest", this->Options.largest, "Keep the component of the largest volume only; octants given up with "
                                                    "the others are counted in the metrics, dropped_octants")
     ->group(group);
 }
@@ -245,14 +245,9 @@ void Reconstruct::finish()
         ? "local hulls are decided over the whole; pieces need --surface voting or marching-cubes"
         : "--octree writes the whole octree, which pieces never hold");
   }
-  std::set<std::string> files;
-  for (const std::string& file : { options.mesh, options.metrics, options.image, options.octree })
-  {
-    if (!file.empty() && !files.insert(file).second)
-    {
-      throw CLI::ValidationError("--output", "two outputs have the name '" + file + "'");
-    }
-  }
+  checkExtension("--metrics", options.metrics, ".json");
+  checkExtension("--image", options.image, ".png");
+  checkExtension("--octree", options.octree, ".htg");
 }
 
 void Reconstruct::run()

@@ -4,6 +4,7 @@
 #include "Arguments.h"
 #include "Components.h"
 #include "MeshFiles.h"
+#include "OutputChecks.h"
 #include "OutputFiles.h"
 #include "Preview.h"
 #include "Reconstruct.h"
@@ -56,17 +57,17 @@ void Reconstruction::run()
   this->carve();
   this->makeSurface();
 
-  StagedFile file(this->Options.mesh);
-  const vtkSmartPointer<vtkPolyData> stored = this->store(this->Kept, file);
+  StagedFiles files;
+  const vtkSmartPointer<vtkPolyData> stored = this->store(this->Kept, files.add(this->Options.mesh));
   this->evaluate(stored);
-  file.commit();
-  this->writeOctree();
-  this->writeImage(stored);
+  this->writeOctree(files);
+  this->writeImage(stored, files);
   this->gatherMetrics(stored);
   if (!this->Options.metrics.empty())
   {
-    writeMetrics(this->Found, this->Options.metrics);
+    writeMetrics(this->Found, files.add(this->Options.metrics));
   }
+  files.commit();
   if (!this->Options.quiet)
   {
     this->summarise();
@@ -75,14 +76,8 @@ void Reconstruction::run()
 
 void Reconstruction::checkOutputs() const
 {
-  for (const std::string& file :
-    { this->Options.mesh, this->Options.metrics, this->Options.image, this->Options.octree })
-  {
-    if (!file.empty())
-    {
-      checkWritable(file);
-    }
-  }
+  const ReconstructOptions& options = this->Options;
+  program::checkOutputs({ options.mesh, options.metrics, options.image, options.octree }, options.capture, { options.truth });
   if (!this->Options.image.empty())
   {
     checkPreview();
@@ -361,13 +356,13 @@ void Reconstruction::gatherMetrics(vtkPolyData* stored)
   this->Found = metrics;
 }
 
-void Reconstruction::writeOctree()
+void Reconstruction::writeOctree(StagedFiles& files)
 {
   if (this->Options.octree.empty())
   {
     return;
   }
-  StagedFile file(this->Options.octree);
+  const StagedFile& file = files.add(this->Options.octree);
   vtkNew<vtkXMLHyperTreeGridWriter> writer;
   writer->SetInputData(this->Octree->GetOutput());
   writer->SetFileName(file.path().c_str());
@@ -377,19 +372,17 @@ void Reconstruction::writeOctree()
   {
     throw ProgramError(FileFailed, "cannot write octree " + this->Options.octree + "; is the disk full?");
   }
-  file.commit();
 }
 
-void Reconstruction::writeImage(vtkPolyData* stored)
+void Reconstruction::writeImage(vtkPolyData* stored, StagedFiles& files)
 {
   if (this->Options.image.empty())
   {
     return;
   }
-  StagedFile file(this->Options.image);
+  const StagedFile& file = files.add(this->Options.image);
   this->Run.run("image", "rendering the preview",
     [&] { renderPreview(stored, this->Extractor->GetOutput(), file.path()); });
-  file.commit();
 }
 
 std::string Reconstruction::describeCarving() const

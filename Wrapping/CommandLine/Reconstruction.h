@@ -25,6 +25,7 @@ namespace silhouette::program
 
 struct ReconstructOptions;
 class StagedFile;
+class StagedFiles;
 
 class Reconstruction
 {
@@ -60,8 +61,8 @@ private:
   vtkSmartPointer<vtkPolyData> store(vtkPolyData* mesh, const StagedFile& file);
   void evaluate(vtkPolyData* stored);
   void gatherMetrics(vtkPolyData* stored);
-  void writeOctree();
-  void writeImage(vtkPolyData* stored);
+  void writeOctree(StagedFiles& files);
+  void writeImage(vtkPolyData* stored, StagedFiles& files);
   void summarise() const;
 
   const ReconstructOptions& Options;
