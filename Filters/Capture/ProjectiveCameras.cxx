@@ -143,7 +143,8 @@ std::string projectiveWarning(const std::vector<Projection>& projections,
             ", skew : fx = " + rounded(cameras[at].skew / cameras[at].fx) + ")";
   }
   const auto first = std::size_t(findings.first);
-  text += "; the first is view " + (first < names.size() ? inQuotes(names[first]) : std::to_string(first));
+  const bool isNamed = first < names.size() && !names[first].empty();
+  text += "; the first is view " + (isNamed ? inQuotes(names[first]) : std::to_string(first));
   const char* differs = findings.notMetric == 0  ? "handedness differs"
                         : findings.mirrored == 0 ? "lengths and angles differ"
                                                  : "lengths, angles and handedness differ";

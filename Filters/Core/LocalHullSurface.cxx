@@ -366,6 +366,7 @@ LocalHullSurface thesisSurface(const Mesh& imperfect, const Octree& octree, cons
   surface.coveredOctants = covered.coveredOctants;
   surface.coveringCorners = covered.coveringCorners;
   surface.bridges = covered.bridges;
+  surface.cavitiesFilled += covered.cavitiesFilled;
   return surface;
 }
 
@@ -422,10 +423,15 @@ std::vector<LocalHull> classifyLocalHulls(const Mesh& imperfect, const Octree& o
   }
   if (options.mode == LocalHullMode::Thesis)
   {
-    Phase covering(execution, 0.0, 0.4);
-    const LocalHullSurface covered = coveredSurface(imperfect, octree, views, options, covering);
+    DroppedSurvivors dropped; // what the surface gives up has no hull
+    Phase dropping(execution, 0.0, 0.1);
+    const std::optional<Octree> kept =
+      options.islandShare > 0.0 ? std::optional<Octree>(dropIslands(octree, options.islandShare, dropped, dropping)) : std::nullopt;
+    const Octree& used = kept ? *kept : octree;
+    Phase covering(execution, 0.1, 0.4);
+    const LocalHullSurface covered = coveredSurface(imperfect, used, views, options, covering);
     Phase hulling(execution, 0.4, 1.0);
-    return thesisHulls(covered.mesh, octree, options, hulling);
+    return thesisHulls(covered.mesh, used, options, hulling);
   }
   CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection, execution), execution);
   const LatticeLabels labels = views ? LatticeLabels(octree, std::move(shell), *views, execution)

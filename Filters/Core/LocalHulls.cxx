@@ -58,6 +58,11 @@ bool holdsOutside(const Mesh& hull, const LatticeLabels& labels, double toleranc
   {
     box.extend(Eigen::Vector3d((p - octree.lattice.root.origin) / octree.lattice.leafEdge()));
   }
+  const double last = octree.lattice.cells();
+  if (!((box.min().array() >= -depth).all() && (box.max().array() <= last + depth).all()))
+  {
+    return true; // everything beyond the lattice is outside
+  }
   for (int k = int(std::ceil(box.min().z())); k <= box.max().z(); ++k)
   {
     for (int j = int(std::ceil(box.min().y())); j <= box.max().y(); ++j)

@@ -318,6 +318,13 @@ ImageFileReport inspectJpeg(const Bytes& bytes)
     {
       report.orientation = exifOrientation(bytes.substr(at + 10));
     }
+    const std::uint32_t marker = byteAt(bytes, at + 1);
+    const bool isFrame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    if (isFrame && at + 9 < bytes.size() && byteAt(bytes, at + 9) == 4)
+    {
+      report.fault = "JPEG of four inks (CMYK); grey and colours are understood";
+      return report;
+    }
     at += fill ? 1 : 2 + (byteAt(bytes, at + 2) << 8 | byteAt(bytes, at + 3));
   }
   report.fault = at < bytes.size() && bytes.find("\xff\xd9", at) != Bytes::npos ? "" : "it ends too soon";

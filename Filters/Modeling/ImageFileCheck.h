@@ -21,7 +21,7 @@ struct ImageFileReport
 /**
  * What is wrong with a PNG, JPEG, PNM or BMP file, and how it is to be turned, which PNG and JPEG files may tell.
  * PNG: every chunk is known, whole, in its place and has its checksum, and the pixels are all there; JPEG: the
- * image has an end; PNM: binary, 8 bits, and of its full length; BMP: 8 or 24 bits a pixel, not compressed, and of its
+ * image has an end, and is of grey or three colours; PNM: binary, 8 bits, and of its full length; BMP: 8 or 24 bits a pixel, not compressed, and of its
  * full length. Cost: the file is read once, a PNG's pixels are
  * decompressed.
  */

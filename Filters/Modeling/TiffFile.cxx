@@ -5,6 +5,7 @@
 
 #include "vtkImageData.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <memory>
@@ -71,6 +72,42 @@ public:
       this->fail("it is damaged, or ends too soon");
     }
     return pixels;
+  }
+
+  /** Whether the file has values of 16 bits, in rows that can be read one by one. */
+  bool hasWideRows() const
+  {
+    return this->field(TIFFTAG_BITSPERSAMPLE) == 16 && this->field(TIFFTAG_PHOTOMETRIC) == PHOTOMETRIC_MINISBLACK && !TIFFIsTiled(this->get()) &&
+           TIFFScanlineSize(this->get()) == tmsize_t(this->Size[0]) * 2;
+  }
+
+  /** 1 where a value is 1, of rows of 16 bits that hold nothing greater, else nothing; the lowest row first. */
+  std::vector<unsigned char> ones() const
+  {
+    const auto width = std::size_t(this->Size[0]), height = std::size_t(this->Size[1]);
+    std::uint16_t orientation = ORIENTATION_TOPLEFT;
+    TIFFGetFieldDefaulted(this->get(), TIFFTAG_ORIENTATION, &orientation);
+    const bool fromTop = orientation == ORIENTATION_TOPLEFT || orientation == ORIENTATION_TOPRIGHT;
+    const bool fromRight = orientation == ORIENTATION_TOPRIGHT || orientation == ORIENTATION_BOTRIGHT;
+    std::vector<unsigned char> ones(width * height);
+    std::vector<std::uint16_t> row(width);
+    for (std::size_t r = 0; r < height; ++r)
+    {
+      if (TIFFReadScanline(this->get(), row.data(), std::uint32_t(r), 0) < 0)
+      {
+        this->fail("it is damaged, or ends too soon");
+      }
+      unsigned char* const out = &ones[width * (fromTop ? height - 1 - r : r)];
+      for (std::size_t c = 0; c < width; ++c)
+      {
+        if (row[c] > 1)
+        {
+          return {};
+        }
+        out[fromRight ? width - 1 - c : c] = static_cast<unsigned char>(row[c]);
+      }
+    }
+    return ones;
   }
 
   bool isGrey() const
@@ -150,6 +187,14 @@ vtkSmartPointer<vtkImageData> readTiff(const std::filesystem::path& file)
   image->SetDimensions(tiff.size()[0], tiff.size()[1], 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, channels);
   auto* out = static_cast<unsigned char*>(image->GetScalarPointer());
+  // Ones among values of 16 bits are nothing among those of 8, but object in a mask.
+  const bool isBlack = std::all_of(pixels.begin(), pixels.end(), [](std::uint32_t pixel) { return TIFFGetR(pixel) == 0; });
+  const std::vector<unsigned char> ones = channels == 1 && isBlack && tiff.hasWideRows() ? Tiff(file).ones() : std::vector<unsigned char>();
+  if (!ones.empty())
+  {
+    std::copy(ones.begin(), ones.end(), out);
+    return image;
+  }
   for (const std::uint32_t pixel : pixels)
   {
     const unsigned char parts[4] = {static_cast<unsigned char>(TIFFGetR(pixel)), static_cast<unsigned char>(TIFFGetG(pixel)),

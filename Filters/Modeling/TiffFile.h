@@ -19,7 +19,8 @@ namespace silhouette::modeling
 bool isTiffFile(const std::filesystem::path& file);
 
 /**
- * The image, 8 bits a channel: grey, grey and opacity, colours, or colours and opacity (by which libtiff has multiplied them). Throws
+ * The image, 8 bits a channel: grey, grey and opacity, colours, or colours and opacity (by which libtiff has multiplied them); of
+ * 16 bits the upper 8, but for grey of zeros and ones. Throws
  * InvalidInput, naming the file, for what is damaged, of a kind that libtiff does not turn into colours, or turned by a right angle, and where
  * there are several images of full size.
  */

@@ -106,6 +106,15 @@ int vtkSilhouetteEvaluator::RequestData(vtkInformation* request, vtkInformationV
     {
       throw silhouette::InvalidInput("no views: silhouettes to compare the surface with are needed");
     }
+    for (std::size_t i = 0; i < views.size(); ++i)
+    {
+      const int rank = silhouette::projectionRank(views[i].projection);
+      if (rank < 3)
+      {
+        throw silhouette::InvalidInput(silhouette::describeView(i, views[i].name) + ": the projection matrix has rank " +
+                                       std::to_string(rank) + ", 3 is needed");
+      }
+    }
     execution.checkpoint(0.1);
     silhouette::Phase assessing(execution, 0.1, 0.4);
     storeSoundness(silhouette::assessMesh(mesh, assessing), table);

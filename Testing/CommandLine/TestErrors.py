@@ -130,9 +130,16 @@ class Errors(ProgramTest):
         triangles = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
         (self.folder / "good.ply").write_text(text + corners + triangles)
         self.good("evaluate", self.folder / "good.ply", "--capture", self.capture)
-        refused("text.ply", (text + corners + triangles[:-8]).encode(), "fewer than 4 of element face")
-        refused("text.ply", (text + corners + triangles.replace("3 1 2 3", "3 1 2 7")).encode(), "face 3 names point 7, there are 4")
+        refused("text.ply", (text + corners + triangles[:-8]).encode(), "ends too soon, within face 3 of 4")
+        refused("text.ply", (text + corners + triangles.replace("3 1 2 3", "3 1 2 7")).encode(), "face 3 of 4 names point 7, there are 4")
         refused("text.ply", (text + corners.replace("0 0 1", "0 0 nan") + triangles).encode(), "point 3 is not finite")
+        for face in ("4 0 1 2 1000000000", "3 0 1 -1", "3 0 1 1.5e300", "3 0 1 x"):
+            refused("text.ply", (text + corners + triangles.replace("3 1 2 3", face)).encode(), "face 3")
+        refused("text.ply", (text.replace("vertex_indices", "corners") + corners + triangles).encode(), "no list vertex_indices")
+        refused("text.ply", (text.replace("list uchar int", "int") + corners + triangles).encode(), "no list vertex_indices")
+        refused("text.ply", (text.replace("property float y\n", "") + corners + triangles).encode(), "points have no y")
+        refused("text.ply", (text.replace("list uchar", "list char") + corners + triangles.replace("3 1 2 3", "-3 1 2 3")).encode(),
+                "a list of -3 values")
         refused("text.ply", (text.replace("uchar int", "uchar integer") + corners + triangles).encode(), "uchar integer")
         stl = self.folder / "x.stl"
         self.good("reconstruct", self.capture, "-o", stl, "--depth", 4)

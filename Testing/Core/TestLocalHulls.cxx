@@ -38,6 +38,19 @@ TEST(LocalHulls, AConvexObjectIsOneHullThatHoldsItsPoints)
   EXPECT_GT(double(largest), 0.95 * double(points));
 }
 
+TEST(LocalHulls, WhatLiesBeyondTheLatticeMergesWithNothing)
+{
+  Execution execution;
+  const PreparedViews views = prepareViews(viewsOf(boxMesh(-0.7, 0.73), swayingRing(16, 300), 300));
+  const Octree octree = carveViews(views, unitCube(), 5);
+  for (const double size : { 3.0, 1e3, 1e6, 1e9, 1e12 })
+  {
+    const Mesh far = boxMesh(-size, size); // 12 triangles
+    const auto hulls = classifyLocalHulls(far, octree, &views, {}, execution);
+    EXPECT_EQ(hulls.size(), 0u) << size << ": triangles that are alone have no volume";
+  }
+}
+
 TEST(LocalHulls, AConcaveObjectKeepsItsConcavity)
 {
   Execution execution;

@@ -275,6 +275,30 @@ TEST(ThesisHullSurface, LooseHullsAreDroppedAndCavitiesFilledByOption)
   EXPECT_LT(assessMesh(open.mesh, execution).volume, assessMesh(filled.mesh, execution).volume - 0.05);
 }
 
+TEST(ThesisHullSurface, HasNoHullsOfIslandsThatAreGivenUp)
+{
+  Execution execution;
+  const Mesh object = joined(boxMesh({ -0.1, -0.5, -0.5 }, { 0.8, 0.5, 0.5 }), boxMesh({ -0.8, -0.15, -0.15 }, { -0.5, 0.15, 0.15 }));
+  const PreparedViews views = prepareViews(viewsOf(object, swayingRing(16, 300), 300));
+  const Octree octree = carveViews(views, unitCube(), 5);
+  const Mesh surface = votingMarchingCubes(octree, views, VotingOptions(), execution).mesh;
+  LocalHullOptions options;
+  options.mode = LocalHullMode::Thesis;
+  for (const double share : { 0.0, 0.5 })
+  {
+    options.islandShare = share;
+    double least = 1.0;
+    for (const LocalHull& hull : classifyLocalHulls(surface, octree, &views, options, execution))
+    {
+      for (const auto& p : hull.mesh.points)
+      {
+        least = std::min(least, p.x());
+      }
+    }
+    EXPECT_EQ(least > -0.4, share > 0.0) << share << ": " << least;
+  }
+}
+
 TEST(ThesisHullSurface, SameBytesForAnyNumberOfThreads)
 {
   const Scene run(1, 3, 0);

@@ -401,6 +401,51 @@ TEST_F(VtkSilhouetteCaptureReader, RefusesPngFilesThatLibpngWouldGiveUp)
   expectSize(png, 9, 2);
 }
 
+TEST_F(VtkSilhouetteCaptureReader, OnesAreObjectInMasksOf16BitsToo)
+{
+  fs::remove_all(this->Folder / "masks");
+  fs::create_directories(this->Folder / "masks");
+  vtkNew<vtkImageData> wide;
+  wide->SetDimensions(9, 5, 1);
+  wide->AllocateScalars(VTK_UNSIGNED_SHORT, 1);
+  auto* values = static_cast<unsigned short*>(wide->GetScalarPointer());
+  for (const int greatest : {1, 2, 255, 65535})
+  {
+    std::fill_n(values, 45, static_cast<unsigned short>(0));
+    values[0] = values[11] = static_cast<unsigned short>(greatest);
+    writeImage<vtkPNGWriter>(wide, this->Folder / "masks/disc2.png");
+    writeImage<vtkTIFFWriter>(wide, this->Folder / "masks/disc3.tif");
+    this->Reader->SetViews("2,3");
+    this->Reader->Modified();
+    this->Reader->Update();
+    ASSERT_EQ(this->Reader->GetOutput()->GetNumberOfPartitionedDataSets(), 2u);
+    for (unsigned int i = 0; i < 2; ++i)
+    {
+      const auto* found = static_cast<unsigned char*>(this->output(i)->GetScalarPointer());
+      const int expected = greatest == 1 ? 1 : i == 0 ? (greatest + 128) / 257 : greatest / 256; // libtiff cuts off
+      EXPECT_EQ(int(found[0]), expected) << greatest << " " << i;
+      EXPECT_EQ(int(found[11]), expected) << greatest << " " << i;
+      EXPECT_EQ(std::count(found, found + 45, 0), expected > 0 ? 43 : 45) << greatest << " " << i;
+    }
+  }
+}
+
+TEST_F(VtkSilhouetteCaptureReader, RefusesJpegOfInks)
+{
+  fs::remove_all(this->Folder / "masks");
+  fs::create_directories(this->Folder / "masks");
+  this->Reader->SetViews("2");
+  const fs::path file = this->Folder / "masks/disc2.jpg";
+  writeImage<vtkJPEGWriter>(discImage(64, 20.0), file);
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::size_t frame = std::min(bytes.find("\xff\xc0"), bytes.find("\xff\xc2")); // baseline, or progressive
+  ASSERT_NE(frame, std::string::npos);
+  bytes[frame + 9] = 4; // components
+  std::ofstream(file, std::ios::binary) << bytes;
+  expectError(this->Reader, {"disc2.jpg", "CMYK"});
+}
+
 TEST_F(VtkSilhouetteCaptureReader, WarnsOfOrientationsThatItDoesNotApply)
 {
   fs::remove_all(this->Folder / "masks");

@@ -39,6 +39,9 @@ class TestImport(unittest.TestCase):
                     self.assertTrue([line for line in lines if line.strip() and not line.startswith((setter, "C++"))])
         self.assertGreater(settings, 60)
 
+    def test_version(self):
+        self.assertRegex(vtksilhouette.__version__, r"^\d+\.\d+\.\d+$")
+
     def test_renders_only_when_asked(self):
         self.assertNotIn("vtkmodules.vtkRenderingOpenGL2", sys.modules)
 

@@ -207,6 +207,8 @@ class TestErrors(unittest.TestCase):
         self.check(ValueError, "carving is 'lax', it is one of tolerant, strict", carving="lax")
         self.check(ValueError, "mode is 'fast', it is one of robust, thesis", mode="fast")
         self.check(RuntimeError, "island share 2", drop_islands=2.0)
+        for depth in (5.5, "5", None):
+            self.check(TypeError, "integer", depth=depth)
 
     def test_errors_of_the_filters(self):
         self.check(RuntimeError, "(?i)depth", depth=40)

@@ -2,16 +2,16 @@
 #include "MeshFiles.h"
 
 #include "ExitCodes.h"
-#include "MeshFileCheck.h"
 #include "ObjFile.h"
+#include "PlyFile.h"
 #include "Stages.h"
+#include "StlFileCheck.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
 #include "vtkNew.h"
-#include "vtkPLYReader.h"
 #include "vtkPLYWriter.h"
 #include "vtkPolyData.h"
 #include "vtkSTLReader.h"
@@ -25,7 +25,6 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 namespace silhouette::program
 {
@@ -87,23 +86,6 @@ vtkSmartPointer<vtkPolyData> readWith(const std::filesystem::path& file)
   return reader->GetOutput();
 }
 
-/** VTK opens only files of the very extension .ply; others are handed to it as text. */
-vtkSmartPointer<vtkPolyData> readPly(const std::filesystem::path& file)
-{
-  if (file.extension() == ".ply")
-  {
-    return readWith<vtkPLYReader>(file);
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream content;
-  content << stream.rdbuf();
-  vtkNew<vtkPLYReader> reader;
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(content.str());
-  runQuietly(reader.Get(), "cannot read mesh " + file.string(), [&] { reader->Update(); });
-  return reader->GetOutput();
-}
-
 template <typename Writer>
 void writeWith(vtkPolyData* mesh, const std::filesystem::path& file, void (*setUp)(Writer*))
 {
@@ -161,7 +143,6 @@ vtkSmartPointer<vtkPolyData> readByFormat(const std::filesystem::path& file)
   }
   if (format == "ply")
   {
-    refuse(file, plyFault(file));
     return readPly(file);
   }
   if (format == "stl")

@@ -166,9 +166,12 @@ void StagedFiles::commit()
 }
 
 StagedFolder::StagedFolder(const fs::path& target, bool replace)
-  : Target(behindLinks(target.has_filename() ? target : target.parent_path()))
+  : Target(target)
 {
+  // The place itself, whatever leads to it: what is on its way lies beside it, not in it.
   std::error_code ignored;
+  this->Target = fs::weakly_canonical(fs::absolute(target, ignored), ignored);
+  this->Target = this->Target.has_filename() ? this->Target : this->Target.parent_path();
   if (fs::exists(this->Target, ignored) && !fs::is_directory(this->Target, ignored))
   {
     failWriting(this->Target, "there is a file of this name");

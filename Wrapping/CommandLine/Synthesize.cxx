@@ -83,8 +83,9 @@ void Synthesize::addShape()
 void Synthesize::addNoise()
 {
   const char* const group = "Noise (default: none)";
-  this->App->add_option("--seed", this->Seed, "Another number draws other noise of the same strength (default: 0)")
+  this->App->add_option("--seed", this->Seed, "Another number draws other noise of the same strength, 0 to 2^32 - 1 (default: 0)")
     ->type_name("N")
+    ->check(inRange(0, 4294967295.0, true))
     ->group(group);
   this->App
     ->add_option("--noise-contour", this->NoiseContour, "Standard deviation of the contours' displacement, smooth along "
@@ -127,8 +128,8 @@ void Synthesize::finish()
     throw CLI::ValidationError("--size", "expected width and height in pixels, 1 to 16384 each, as in 1024x768; got '" +
         this->SizeText + "'");
   }
-  this->Width = std::stoi(width);
-  this->Height = std::stoi(height);
+  this->Width = static_cast<int>(std::stod(width)); // which may be written 1e3
+  this->Height = static_cast<int>(std::stod(height));
   if (this->NoiseBlobs > this->Views)
   {
     throw CLI::ValidationError("--noise-blobs", std::to_string(this->NoiseBlobs) + " masks are more than the " +

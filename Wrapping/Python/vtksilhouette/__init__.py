@@ -17,7 +17,8 @@ vtksilhouette.offscreen     rendering without a display: python3 -m vtksilhouett
 import vtkmodules.vtkCommonExecutionModel  # noqa: F401
 import vtkmodules.vtkParallelCore  # noqa: F401
 
+from .version import __version__
 from .vtkSilhouetteFiltersModeling import *  # noqa: F401,F403
 
-__all__ = ["numpy_front", "offscreen"]
+__all__ = ["__version__", "numpy_front", "offscreen"]
 __all__ += sorted(name for name in globals() if name.startswith("vtk") and isinstance(globals()[name], type))

@@ -15,6 +15,7 @@ who needs more of their options, their counts or a pipeline uses them directly.
 """
 
 import math
+import operator
 import warnings
 from dataclasses import dataclass
 
@@ -205,8 +206,8 @@ def _octree_source(masks, projections, depth, bounds, vote_share, outside, names
     source = vtkSilhouetteOctreeSource()
     for view, (image, matrix) in enumerate(zip(images, matrices)):
         source.AddView(image, matrix.ravel().tolist(), str(names[view]) if names is not None else None)
-    source.SetDepth(int(depth))
-    source.SetBackgroundVotes(len(images) - math.ceil(vote_share * len(images) - 1e-9))
+    source.SetDepth(operator.index(depth))
+    source.SetBackgroundVotes(len(images) - max(1, math.ceil(vote_share * len(images) - 1e-9)))
     source.SetOutsidePolicy(_choice("outside", outside, _OUTSIDE))
     if bounds is not None:
         box = np.asarray(bounds, np.float64).ravel()
