@@ -326,7 +326,7 @@ LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& carved, cons
   CornerShell shell = intersectionShell(carved, execution);
   execution.checkpoint(0.1);
   Phase correcting(execution, 0.1, 0.5);
-  const CorrectedCapture capture = correctCapture(imperfect, carved, shell, views, options, correcting);
+  CorrectedCapture capture = correctCapture(imperfect, carved, shell, views, options, correcting);
   surface.deficit = capture.correction.deficit;
   surface.shift = capture.correction.shift;
   surface.alignment = capture.correction.alignment;
@@ -335,6 +335,11 @@ LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& carved, cons
   if (options.islandShare > 0.0)
   {
     kept = withoutCrumbs(carved, capture, options.islandShare, surface.dropped, execution);
+    if (capture.recarved)
+    {
+      Unannounced leaving(execution);
+      capture.recarved = withoutStrangers(*capture.recarved, *kept, leaving);
+    }
     shell = intersectionShell(*kept, execution);
   }
   const Octree& octree = kept ? *kept : carved;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace silhouette
 {
@@ -23,6 +24,13 @@ public:
   {
   }
 
+  /** The component of a cell of the lattice, by its Morton code; BlockRegions::None where it is of none. */
+  std::uint32_t at(std::uint64_t leaf)
+  {
+    const std::uint32_t number = this->Regions.at(leaf);
+    return number != BlockRegions::None ? this->Regions.find(number) : number;
+  }
+
   /** Call `work(generation, index, component)` for every survivor. */
   template <typename Work>
   void forSurvivors(const Work& work)
@@ -35,7 +43,7 @@ public:
       {
         if (generation.state[i] == OctantState::Inside || (g == depth && generation.state[i] == OctantState::Intersection))
         {
-          work(g, i, this->Regions.find(this->Regions.at(generation.code[i] << 3 * (depth - g))));
+          work(g, i, this->at(generation.code[i] << 3 * (depth - g)));
         }
       }
     }
@@ -105,6 +113,38 @@ Octree dropIslands(const Octree& octree, double share, DroppedSurvivors& dropped
   settle(kept, dropped, execution);
   execution.checkpoint(1.0);
   return kept;
+}
+
+Octree withoutStrangers(const Octree& octree, const Octree& kept, Execution& execution)
+{
+  Octree own = octree;
+  Components components(octree, execution);
+  std::unordered_set<std::uint32_t> known;
+  Components(kept, execution)
+    .forSurvivors(
+      [&](int g, std::size_t i, std::uint32_t)
+      {
+        // In another octree an octant may be subdivided: its cells at the corners tell.
+        const int below = 3 * (kept.lattice.depth - g);
+        const std::uint64_t first = kept.generations[std::size_t(g)].code[i] << below, step = ((std::uint64_t(1) << below) - 1) / 7;
+        for (std::uint64_t corner = 0; corner < (g == kept.lattice.depth ? 1u : 8u); ++corner)
+        {
+          known.insert(components.at(first + corner * step));
+        }
+      });
+  execution.checkpoint(0.8);
+  DroppedSurvivors strangers;
+  components.forSurvivors(
+    [&](int g, std::size_t i, std::uint32_t component)
+    {
+      if (known.count(component) == 0)
+      {
+        giveUp(own, g, i, strangers);
+      }
+    });
+  settle(own, strangers, execution);
+  execution.checkpoint(1.0);
+  return own;
 }
 
 std::vector<std::uint64_t> debrisLeaves(const Octree& octree, const Octree& repaired)

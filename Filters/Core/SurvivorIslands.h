@@ -46,4 +46,10 @@ std::vector<std::uint64_t> debrisLeaves(const Octree& octree, const Octree& repa
  */
 Octree dropLeaves(const Octree& octree, const std::vector<std::uint64_t>& leaves, DroppedSurvivors& dropped);
 
+/**
+ * The octree without its components that hold no survivor of `kept`, an octree of the same lattice: what of a more generous octree belongs
+ * to islands that another one has given up. Cost: a copy, and the components.
+ */
+Octree withoutStrangers(const Octree& octree, const Octree& kept, Execution& execution);
+
 } // namespace silhouette

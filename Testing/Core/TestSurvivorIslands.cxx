@@ -151,6 +151,29 @@ TEST(SurvivorIslands, NoiseLeavesTheLargestAlone)
   }
 }
 
+TEST(SurvivorIslands, ComponentsThatAnotherOctreeHasNothingOf)
+{
+  Execution execution;
+  PreparedViews views;
+  const Octree octree = threeCubes(views);
+  for (const double share : { 0.0, 0.1, 0.5 })
+  {
+    DroppedSurvivors dropped;
+    const Octree kept = dropIslands(octree, share, dropped, execution);
+    EXPECT_TRUE(sameOctants(withoutStrangers(octree, kept, execution), kept)) << share;
+    EXPECT_TRUE(sameOctants(withoutStrangers(kept, octree, execution), kept)) << share << ": nothing is added";
+    // Of each component one leaf is enough.
+    std::vector<std::uint64_t> leaves = leafCells(kept, OctantState::Intersection);
+    leaves.pop_back();
+    DroppedSurvivors most;
+    const Octree few = dropLeaves(kept, leaves, most);
+    const Octree known = withoutStrangers(octree, few, execution);
+    EXPECT_EQ(countSurvivorComponents(known, execution) > 0, true);
+    EXPECT_LE(countSurvivorComponents(known, execution), countSurvivorComponents(kept, execution));
+    EXPECT_TRUE(sameOctants(withoutStrangers(known, few, execution), known));
+  }
+}
+
 TEST(SurvivorIslands, NothingToGiveUp)
 {
   Execution execution;

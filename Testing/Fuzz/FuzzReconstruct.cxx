@@ -121,14 +121,28 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Octree octree = carve(LatticeViews(prepared, { cube, depth }), carving, execution);
     VotingOptions voting;
     voting.share = double(count - k) / count;
+    voting.edges = EdgePlacement(in.below(3));
     const auto surface = votingMarchingCubes(octree, prepared, voting, execution);
     const MeshSoundness soundness = assessMesh(surface.mesh, execution);
     require(soundness.openEdges + soundness.nonManifoldEdges + soundness.nonManifoldVertices == 0, "voting is closed");
     LocalHullOptions options;
     options.bridgeGap = in.below(4);
     options.singlePrecision = in.below(2) != 0;
-    expectPromise(localHullSurface(surface.mesh, octree, &prepared, options, execution).mesh, octree, execution);
-    expectPromise(localHullSurface(surface.mesh, octree, nullptr, options, execution).mesh, octree, execution);
+    options.islandShare = in.below(3) == 0 ? 0.1 * in.below(11) : 0.0;
+    for (const LocalHullMode mode : { LocalHullMode::Robust, LocalHullMode::Thesis })
+    {
+      options.mode = mode;
+      for (const PreparedViews* known : { &prepared, static_cast<const PreparedViews*>(nullptr) })
+      {
+        const LocalHullSurface found = localHullSurface(surface.mesh, octree, known, options, execution);
+        DroppedSurvivors dropped;
+        expectPromise(found.mesh, dropLeaves(octree, found.dropped.leaves, dropped), execution);
+        for (const LocalHull& hull : classifyLocalHulls(surface.mesh, octree, known, options, execution))
+        {
+          require(assessMesh(hull.mesh, execution).volume > 0.0, "a hull's volume");
+        }
+      }
+    }
   }
   catch (const Error&)
   {
