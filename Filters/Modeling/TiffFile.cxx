@@ -38,7 +38,7 @@ public:
     TIFFGetField(this->get(), TIFFTAG_IMAGEWIDTH, &width);
     TIFFGetField(this->get(), TIFFTAG_IMAGELENGTH, &height);
     constexpr std::uint32_t largest = 1000000;
-    constexpr double most = 10000.0; // pixels for a byte of the file
+    constexpr double most = 2e5; // pixels for a byte of the file: an empty fax of 10,000 x 10,000 has a third of that
     if (width - 1 >= largest || height - 1 >= largest ||
         double(width) * height > most * double(std::filesystem::file_size(file)))
     {

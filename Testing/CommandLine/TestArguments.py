@@ -44,6 +44,13 @@ class Wrong(ProgramTest):
         self.wrong_reconstruct(["--votes"], "--votes", "fair")
         self.wrong_reconstruct(["--threads"], "--threads", "many")
 
+    def test_options_that_mean_nothing(self):
+        for option in (["--mode", "thesis"], ["--mode", "robust"], ["--no-repair"], ["--drop-islands"], ["--no-tunnels"]):
+            for surface in ("voting", "marching-cubes"):
+                self.wrong_reconstruct([option[0], "--surface " + surface, "local-hull"], "--surface", surface, *option)
+        self.wrong(["--sample-spacing", "--truth"], "evaluate", self.capture / "truth.ply", "--capture", self.capture,
+                   "--sample-spacing", 0.1)
+
     def test_silhouettes(self):
         for key in ("blue", "blue:0", "pink:0.1", "blue:1.5", "blue:x"):
             self.wrong_reconstruct(["--key", "'" + key + "'", "blue:0.08"], "--key", key)

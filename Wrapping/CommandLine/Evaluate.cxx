@@ -91,6 +91,10 @@ Evaluate::Evaluate(CLI::App& program)
 void Evaluate::finish()
 {
   this->Silhouettes.finish();
+  if (this->SampleSpacing > 0.0 && this->Truth.empty())
+  {
+    throw CLI::ValidationError("--sample-spacing", "is for the comparison with --truth");
+  }
   checkExtension("--metrics", this->MetricsFile, ".json");
 }
 

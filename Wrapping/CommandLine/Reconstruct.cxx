@@ -20,6 +20,8 @@ const char* const Description =
   "of\nwhat survives. The default surface is closed, oriented outwards, manifold and free of self-intersections, "
   "whatever\nthe silhouettes.";
 
+constexpr const char* HullGroup = "Local hulls";
+
 std::string footer()
 {
   return std::string("Colours are on a scale of 0 to 1, lengths in the unit of the cameras. Without any of the options "
@@ -111,7 +113,7 @@ void Reconstruct::addOctree()
 
 void Reconstruct::addLocalHulls()
 {
-  const char* const group = "Local hulls";
+  const char* const group = HullGroup;
   this->App
     ->add_option("--mode", this->Options.mode, "robust, labels of the views corrected by what they agree on; thesis, one "
                                                "convex hull for each chain of slices, combined")
@@ -244,6 +246,13 @@ void Reconstruct::finish()
     throw CLI::ValidationError("--pieces", options.surface == "local-hull"
         ? "local hulls are decided over the whole; pieces need --surface voting or marching-cubes"
         : "--octree writes the whole octree, which pieces never hold");
+  }
+  for (const CLI::Option* option : this->App->get_options([](const CLI::Option* one) { return one->get_group() == HullGroup; }))
+  {
+    if (option->count() > 0 && options.surface != "local-hull")
+    {
+      throw CLI::ValidationError(option->get_name(), "means nothing to --surface " + options.surface + "; it is for local-hull");
+    }
   }
   checkExtension("--metrics", options.metrics, ".json");
   checkExtension("--image", options.image, ".png");
