@@ -382,6 +382,10 @@ std::string pnmFault(const Bytes& bytes)
   {
     return "PNM of more than 8 bits";
   }
+  if (header[2] != 1 && header[2] != 255)
+  {
+    return "PNM whose white is " + std::to_string(header[2]) + "; 255 and 1 are understood";
+  }
   const std::size_t pixels = header[0] * header[1] * (bytes[1] == '6' ? 3 : 1);
   return bytes.size() - at > pixels ? "" : "it ends too soon";
 }

@@ -18,7 +18,7 @@
  * | P list | integer: (0, 0) is the first pixel's centre; an option | free: made positive at the object | `images/` and `masks/` with equal stems, or beside the camera file |
  * | Middlebury | not stated: integer; an option | positive in front | the same |
  *
- * Images are PNG, JPEG, PNM, BMP or TIFF; 16-bit values are brought to 8 bits. Where a
+ * Images are PNG, JPEG, PNM (P5, P6), BMP (8 or 24 bits) or TIFF; 16-bit values are brought to 8 bits. Where a
  * `*_good_silhouette_images.txt` exists only its views are read, unless Views says otherwise.
  *
  * Steps: the camera file is read and each view's files are found; images are decoded one after the other
@@ -28,7 +28,8 @@
  *
  * Cost and memory: the images'. All views are given to every piece; the cameras to the first.
  *
- * Limits: no lens distortion; no EXIF rotation; files that change are not noticed: call Modified(). Errors
+ * Limits: no lens distortion; no Exif rotation, of which a warning tells; files that change are not noticed: call
+ * Modified(). Warnings, output made: images and masks that no view finds, data that are damaged but were read. Errors
  * (message naming the file, empty outputs): no or several camera files, a line that is not understood, a
  * missing or unreadable image, a mask of another size than its photograph. AbortExecute is honoured: the
  * outputs are then empty, without an error; VTK does not run an aborted or failed filter again by itself:

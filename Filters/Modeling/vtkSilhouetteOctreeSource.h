@@ -41,7 +41,8 @@
  * other than 12 values, is not finite or of rank below 3; a parameter out of range; automatic bounds of views
  * that do not bound the object; nothing survives. Warnings, output made: a silhouette that is all object or
  * is cut by its image's border; one view with given bounds; a camera inside the root cube; an object that is
- * cut by it; views that are mirrored or not metric.
+ * cut by it; views that are mirrored or not metric, or have the object behind them; with AutomaticTolerance
+ * more than a twentieth of the silhouettes uncovered.
  *
  * AbortExecute is honoured: the outputs are then empty, without an error. VTK does not run an aborted or
  * failed filter again by itself: call Modified() to ask for it.

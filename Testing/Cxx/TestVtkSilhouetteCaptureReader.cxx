@@ -532,6 +532,8 @@ TEST_F(VtkSilhouetteCaptureReader, SurvivesBrokenImages)
   tryAll(this->Folder / "masks/disc2.tif");
   std::ofstream(this->Folder / "masks/disc2.pgm") << "P5 2 2 65535\n12345678";
   expectError(this->Reader, {"disc2.pgm", "more than 8 bits"});
+  std::ofstream(this->Folder / "masks/disc2.pgm") << "P5 2 2 15\n12345678";
+  expectError(this->Reader, {"disc2.pgm", "white is 15"});
   const auto writeBmp = [&](int bits, int compression)
   {
     std::string bytes(14 + 40 + 8 + 64, '\0'); // two colours, and room for eight rows of eight bytes
