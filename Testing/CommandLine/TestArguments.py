@@ -76,7 +76,7 @@ class Wrong(ProgramTest):
         self.wrong(["--noise-blobs", "4", "3"], "synthesize", target, "--views", 3, "--noise-blobs", 4)
         self.wrong(["--noise-pixels"], "synthesize", target, "--noise-pixels", 2)
         for seed in ("-1", "4294967296", "1.5", "99999999999999999999"):
-            self.wrong(["--seed", f"'{seed}'"], "synthesize", target, "--seed=" + seed)
+            self.wrong(["--seed", f"'{seed}'", "0 to 4294967295"], "synthesize", target, "--seed=" + seed)
         self.wrong(["--mesh", "--shape"], "synthesize", target, "--mesh", "a.ply", "--shape", "jug")
         self.good("synthesize", target, "--size", "1e2x4e1", "--views", 2, "--quiet")
         self.assertEqual(program.png_size(target / "masks" / "view_000.png"), (100, 40))

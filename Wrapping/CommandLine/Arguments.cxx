@@ -59,6 +59,7 @@ std::optional<double> parseNumber(const std::string& text)
 std::string numberText(double value)
 {
   std::ostringstream text;
+  text.precision(10); // 2^32 in full
   text << value;
   return text.str();
 }
