@@ -16,12 +16,15 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+
 namespace silhouette::modeling
 {
 namespace
 {
 
 constexpr const char* IsMaskName = "IsMask";
+constexpr const char* SignIsFreeName = "SignIsFree"; ///< of the view's matrix
 
 std::string sizeText(const std::array<int, 2>& size)
 {
@@ -132,6 +135,7 @@ std::vector<ImageView> readCapture(const CaptureDescription& capture, CaptureIma
     checkSameSize(entry);
     ImageView view{readImage(mask ? entry.mask : entry.photograph, warnings), entry.name, entry.projection};
     setField(view.image, IsMaskName, int(mask));
+    setField(view.image, SignIsFreeName, int(capture.freeSign));
     views.push_back(std::move(view));
     if (capture.freeSign)
     {
@@ -144,6 +148,28 @@ std::vector<ImageView> readCapture(const CaptureDescription& capture, CaptureIma
     orient(views, std::move(pixels));
   }
   return views;
+}
+
+void orientBySilhouettes(const std::vector<ImageView>& views, std::vector<View>& silhouettes)
+{
+  std::vector<Projection> projections;
+  std::vector<Vector2> pixels;
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    if (getIntegerField(views[i].image, SignIsFreeName, 0) == 0)
+    {
+      return;
+    }
+    const BinaryImage& image = silhouettes[i].silhouette;
+    const bool isEmpty = std::find(image.pixels.begin(), image.pixels.end(), std::uint8_t(1)) == image.pixels.end();
+    pixels.push_back(isEmpty ? imageCentre(views[i]) : silhouetteCentroid(image));
+    projections.push_back(silhouettes[i].projection);
+  }
+  orientProjections(projections, pixels);
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    silhouettes[i].projection = projections[i];
+  }
 }
 
 bool isMask(const ImageView& view)

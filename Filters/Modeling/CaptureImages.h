@@ -32,6 +32,12 @@ enum class CaptureImageChoice : int
 std::vector<ImageView> readCapture(const CaptureDescription& capture, CaptureImageChoice choice,
                                    std::vector<std::string>& warnings, Execution& execution);
 
+/**
+ * Matrices whose sign is free were made positive where photographs alone could tell; their silhouettes, one a view, tell better: at the point
+ * nearest the rays through these. Nothing is done where the sign of some view's matrix is not free.
+ */
+void orientBySilhouettes(const std::vector<ImageView>& views, std::vector<View>& silhouettes);
+
 /** Whether a view's image was found as a mask: an integer in its field data, kept by every filter. */
 bool isMask(const ImageView& view);
 

@@ -24,7 +24,8 @@
  * Steps: the camera file is read and each view's files are found; images are decoded one after the other
  * (VTK's readers promise nothing about threads); a P list's matrices are negated where the object would lie
  * behind the camera: the object is the point nearest the rays through the silhouettes' centroids, or through
- * the images' centres where they are photographs.
+ * the images' centres where they are photographs, of which vtkSilhouetteExtractor finds the silhouettes and
+ * looks again.
  *
  * Cost and memory: the images'. All views are given to every piece; the cameras to the first.
  *

@@ -179,6 +179,7 @@ int vtkSilhouetteExtractor::RequestData(vtkInformation* request, vtkInformationV
       extractSome(views, first, last, options, execution, silhouettes);
       execution.checkpoint(double(last) / double(views.size()));
     }
+    orientBySilhouettes(views, silhouettes);
     storeViews(silhouetteImages(views, silhouettes), output);
   };
   return runFilter(this, outputs, extract);

@@ -11,13 +11,15 @@
  * | input 0 | vtkPartitionedDataSetCollection of vtkImageData | point scalars | unsigned char, 1 to 4 | grey; grey, alpha; red, green, blue; red, green, blue, alpha |
  * | | | field `Projection` | 12 values | the view's 3 x 4 matrix |
  * | | | field `IsMask` (optional) | int, 1 | 1: the image is a mask |
+ * | | | field `SignIsFree` (optional) | int, 1 | 1: the matrix may have the other sign |
  * | output 0 | vtkPartitionedDataSetCollection of vtkImageData | point scalars `Silhouette` | unsigned char, 1 | 255 object, 0 background |
- * | | | field `Projection` | double, 12 | as in the input, as are the names |
+ * | | | field `Projection` | double, 12 | as in the input, but for a free sign, as are the names |
  *
  * Steps: a pixel is background where ANY criterion that is set says so; then InvertPolarity; then the
  * morphology, in the order in which it was added; then the largest region; then holes. Without a criterion
  * the images must be silhouettes already: an alpha channel that is not opaque everywhere, a mask, or an image
- * of two values.
+ * of two values. Where the signs of all matrices are free, as those of a P list are, each is made positive at the
+ * point nearest the rays through the silhouettes' centroids.
  *
  * Colours, excess, tolerance and threshold are on a scale of 0 to 1, a channel's value / 255.
  *

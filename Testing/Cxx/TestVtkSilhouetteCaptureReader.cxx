@@ -430,6 +430,75 @@ TEST_F(VtkSilhouetteCaptureReader, OnesAreObjectInMasksOf16BitsToo)
   }
 }
 
+/** Cameras side by side, whose axes diverge: only their silhouettes show that the object is in front of them. */
+TEST_F(VtkSilhouetteCaptureReader, SilhouettesTellSignsThatPhotographsDoNot)
+{
+  fs::remove_all(this->Folder / "masks");
+  const std::array<double, 3> object = {0.3, -0.2, 3.0};
+  constexpr double radius = 0.4, focal = 90.0, middle = 0.5 * (ImageSize - 1);
+  std::ofstream projections(this->Folder / "projections.txt");
+  projections << std::setprecision(17);
+  std::vector<Matrix> matrices;
+  for (int i = 0; i < 5; ++i)
+  {
+    const double x = 0.25 * (i - 2), turn = 0.1 * (i - 2); // the outer ones look outwards
+    const double right[3] = {std::cos(turn), 0.0, -std::sin(turn)}, forward[3] = {std::sin(turn), 0.0, std::cos(turn)};
+    Matrix p{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] = focal * right[axis] + middle * forward[axis];
+      p[4 + axis] = focal * (axis == 1 ? 1.0 : 0.0) + middle * forward[axis];
+      p[8 + axis] = forward[axis];
+    }
+    for (int row = 0; row < 3; ++row)
+    {
+      p[4 * row + 3] = -p[4 * row] * x; // the camera's centre is (x, 0, 0)
+    }
+    auto image = plainImage(ImageSize, ImageSize, 0, 3);
+    for (int v = 0; v < ImageSize; ++v)
+    {
+      for (int u = 0; u < ImageSize; ++u)
+      {
+        const double a = (u - middle) / focal, b = (v - middle) / focal; // the ray, and how far the object's middle is from it
+        const double ray[3] = {forward[0] + a * right[0], b, forward[2] + a * right[2]};
+        const double to[3] = {object[0] - x, object[1], object[2]};
+        const double along = (ray[0] * to[0] + ray[1] * to[1] + ray[2] * to[2]) / (ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
+        const double away = std::hypot(to[0] - along * ray[0], to[1] - along * ray[1], to[2] - along * ray[2]);
+        auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(u, ImageSize - 1 - v, 0));
+        pixel[0] = away < radius ? static_cast<unsigned char>(100 + u % 100) : 0;
+      }
+    }
+    const std::string name = "photo" + std::to_string(i) + ".png";
+    writeImage<vtkPNGWriter>(image, this->Folder / "images" / name);
+    projections << name;
+    const double sign = i % 2 == 0 ? 1.0 : -3.0; // scale and sign are free
+    for (const double number : p)
+    {
+      projections << ' ' << sign * number;
+    }
+    projections << '\n';
+    matrices.push_back(p);
+  }
+  projections.close();
+  vtkNew<vtkSilhouetteExtractor> extractor;
+  extractor->SetInputConnection(this->Reader->GetOutputPort());
+  extractor->SetUseThreshold(true);
+  extractor->SetThreshold(0.2);
+  extractor->Update();
+  ASSERT_EQ(extractor->GetOutput()->GetNumberOfPartitionedDataSets(), 5u);
+  for (unsigned int i = 0; i < 5; ++i)
+  {
+    Matrix found;
+    extractor->GetOutput()->GetPartitionAsDataObject(i, 0)->GetFieldData()->GetArray("Projection")->GetTuple(0, found.data());
+    double depth = found[11];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      depth += found[8 + axis] * object[axis];
+    }
+    EXPECT_GT(depth, 0.0) << i;
+  }
+}
+
 TEST_F(VtkSilhouetteCaptureReader, RefusesJpegOfInks)
 {
   fs::remove_all(this->Folder / "masks");
