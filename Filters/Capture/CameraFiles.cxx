@@ -111,11 +111,13 @@ void checkNames(const std::filesystem::path& file, const std::vector<NamedProjec
 /** Camera files of other programs, told by how they begin. */
 void refuseForeign(const std::filesystem::path& file)
 {
-  static constexpr std::array<std::array<const char*, 2>, 7> kinds = {{{"{", "JSON, as NeRF's transforms.json"},
+  static constexpr const char* Json = "JSON, as NeRF's transforms.json";
+  static constexpr std::array<std::array<const char*, 2>, 11> kinds = {{{"{\n", Json}, {"{\r", Json}, {"{ ", Json}, {"{\"", Json},
                                                                        {"<?xml", "XML, as Metashape's and OpenCV's"},
                                                                        {"<opencv_storage", "OpenCV's XML"},
                                                                        {"%YAML", "YAML, as OpenCV's"},
-                                                                       {"CONTOUR", "PMVS's, of one view"},
+                                                                       {"CONTOUR\n", "PMVS's, of one view"},
+                                                                       {"CONTOUR\r", "PMVS's, of one view"},
                                                                        {"# Camera list with", "COLMAP's cameras.txt"},
                                                                        {"# Image list with", "COLMAP's images.txt"}}};
   std::string start(32, '\0');

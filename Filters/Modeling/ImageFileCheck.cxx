@@ -203,7 +203,7 @@ std::string rowsFault(const PngHeader& header, const Bytes& compressed)
 class PngChunks
 {
 public:
-  explicit PngChunks(const Bytes& bytes) : Content(bytes) {}
+  PngChunks(const Bytes& bytes, ImageFileScope scope) : Content(bytes), Scope(scope) {}
 
   int orientation() const { return this->Orientation; }
 
@@ -295,10 +295,11 @@ private:
     {
       return "it has no pixels or no palette";
     }
-    return rowsFault(*this->Header, this->Pixels);
+    return this->Scope == ImageFileScope::Whole ? rowsFault(*this->Header, this->Pixels) : std::string();
   }
 
   const Bytes& Content;
+  ImageFileScope Scope;
   std::optional<PngHeader> Header;
   bool Palette = false;
   Bytes Pixels; ///< compressed
@@ -392,14 +393,14 @@ std::string pnmFault(const Bytes& bytes)
 
 } // namespace
 
-ImageFileReport inspectImageFile(const std::filesystem::path& file)
+ImageFileReport inspectImageFile(const std::filesystem::path& file, ImageFileScope scope)
 {
   std::ifstream stream(file, std::ios::binary);
   const Bytes bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   ImageFileReport report;
   if (bytes.compare(0, 8, "\x89PNG\r\n\x1a\n", 8) == 0)
   {
-    PngChunks chunks(bytes);
+    PngChunks chunks(bytes, scope);
     report.fault = chunks.fault();
     report.orientation = chunks.orientation();
   }

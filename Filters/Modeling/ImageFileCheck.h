@@ -12,6 +12,13 @@
 namespace silhouette::modeling
 {
 
+/** What of a file is going to be read. */
+enum class ImageFileScope
+{
+  Header, ///< a PNG's pixels are not decompressed
+  Whole
+};
+
 struct ImageFileReport
 {
   std::string fault;   ///< in words; empty where nothing is wrong, or nobody knows
@@ -21,10 +28,9 @@ struct ImageFileReport
 /**
  * What is wrong with a PNG, JPEG, PNM or BMP file, and how it is to be turned, which PNG and JPEG files may tell.
  * PNG: every chunk is known, whole, in its place and has its checksum, and the pixels are all there; JPEG: the
- * image has an end, and is of grey or three colours; PNM: binary, 8 bits, and of its full length; BMP: 8 or 24 bits a pixel, not compressed, and of its
- * full length. Cost: the file is read once, a PNG's pixels are
- * decompressed.
+ * image has an end, and is of grey or three colours; PNM: binary, 8 bits, and of its full length; BMP: 8 or 24 bits
+ * a pixel, not compressed, and of its full length. Cost: the file is read once, a PNG's pixels are decompressed.
  */
-ImageFileReport inspectImageFile(const std::filesystem::path& file);
+ImageFileReport inspectImageFile(const std::filesystem::path& file, ImageFileScope scope);
 
 } // namespace silhouette::modeling

@@ -32,7 +32,8 @@ template <typename Reader> vtkSmartPointer<vtkImageReader2> readerIfItFits(const
   return reader->CanReadFile(file) ? vtkSmartPointer<vtkImageReader2>(reader) : nullptr;
 }
 
-vtkSmartPointer<vtkImageReader2> makeReader(const std::filesystem::path& file, std::vector<std::string>& warnings)
+vtkSmartPointer<vtkImageReader2> makeReader(const std::filesystem::path& file, ImageFileScope scope,
+                                            std::vector<std::string>& warnings)
 {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
@@ -40,7 +41,7 @@ vtkSmartPointer<vtkImageReader2> makeReader(const std::filesystem::path& file, s
     throw InvalidInput("cannot read image " + file.string() + ": no such file");
   }
   const std::string name = file.string();
-  const ImageFileReport report = inspectImageFile(file);
+  const ImageFileReport report = inspectImageFile(file, scope);
   if (!report.fault.empty())
   {
     throw InvalidInput("cannot read image " + name + ": " + report.fault);
@@ -88,7 +89,7 @@ vtkSmartPointer<vtkImageData> readImage(const std::filesystem::path& file, std::
   {
     return readTiff(file);
   }
-  const auto reader = makeReader(file, warnings);
+  const auto reader = makeReader(file, ImageFileScope::Whole, warnings);
   const MessageListener listener({reader, reader->GetExecutive()});
   reader->Update();
   if (listener.heardError() || reader->GetErrorCode() != 0)
@@ -127,7 +128,7 @@ std::array<int, 2> readImageSize(const std::filesystem::path& file)
     return readTiffSize(file);
   }
   std::vector<std::string> ignored;
-  const auto reader = makeReader(file, ignored);
+  const auto reader = makeReader(file, ImageFileScope::Header, ignored);
   const MessageListener listener({reader, reader->GetExecutive()});
   reader->UpdateInformation();
   if (listener.heardError())

@@ -109,6 +109,11 @@ TEST(CameraFiles, OthersFilesAreCalledByTheirNames)
     EXPECT_TRUE(holds(error, "projections.txt: this looks like")) << error;
     EXPECT_TRUE(holds(error, "undistorted")) << error;
   }
+  for (const char* name : {"CONTOUR-1.png", "{a}.png"}) // images may be called so
+  {
+    const TemporaryFolder folder;
+    EXPECT_EQ(readCameraFile(folder.write("projections.txt", name + Identity)).views.at(0).name, name);
+  }
 }
 
 TEST(CameraFiles, GarbageIsRefusedNotObeyed)

@@ -275,6 +275,33 @@ TEST(ThesisHullSurface, LooseHullsAreDroppedAndCavitiesFilledByOption)
   EXPECT_LT(assessMesh(open.mesh, execution).volume, assessMesh(filled.mesh, execution).volume - 0.05);
 }
 
+/** Two silhouettes with a hole, either of which may be wrong: what lies in both holes is enclosed. */
+TEST(ThesisHullSurface, CountsTheCavitiesThatTheCoveringFilled)
+{
+  Execution execution;
+  std::vector<View> captured = viewsOf(boxMesh(-0.8, 0.8), axisCameras(40.0, 120), 120);
+  captured.resize(2);
+  for (View& view : captured)
+  {
+    for (int n = 0; n < 120 * 120; ++n)
+    {
+      view.silhouette.pixels[std::size_t(n)] &= std::hypot(n % 120 - 59.5, n / 120 - 59.5) > 12.0;
+    }
+  }
+  const PreparedViews views = prepareViews(captured);
+  const Octree octree = carveViews(views, unitCube(), 5, 1);
+  VotingOptions voting;
+  voting.share = 0.5;
+  const Mesh surface = votingMarchingCubes(octree, views, voting, execution).mesh;
+  LocalHullOptions options;
+  options.mode = LocalHullMode::Thesis;
+  const LocalHullSurface filled = localHullSurface(surface, octree, &views, options, execution);
+  EXPECT_EQ(filled.cavitiesFilled, 1u);
+  EXPECT_EQ(assessMesh(filled.mesh, execution).components, 1u);
+  options.mode = LocalHullMode::Robust;
+  EXPECT_EQ(localHullSurface(surface, octree, &views, options, execution).cavitiesFilled, 1u);
+}
+
 TEST(ThesisHullSurface, HasNoHullsOfIslandsThatAreGivenUp)
 {
   Execution execution;

@@ -2,13 +2,12 @@
 #include "MeshFiles.h"
 
 #include "ExitCodes.h"
+#include "MeshNumbers.h"
 #include "ObjFile.h"
 #include "PlyFile.h"
 #include "Stages.h"
 #include "StlFileCheck.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellArrayIterator.h"
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
 #include "vtkNew.h"
@@ -23,7 +22,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <fstream>
 
 namespace silhouette::program
@@ -105,35 +103,6 @@ void refuse(const std::filesystem::path& file, const std::string& fault)
   }
 }
 
-/** Throws where a point is not finite, or a cell names one that there is not. */
-void checkNumbers(const std::filesystem::path& file, vtkPolyData* mesh)
-{
-  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
-  {
-    double at[3];
-    mesh->GetPoint(point, at);
-    if (!std::isfinite(at[0]) || !std::isfinite(at[1]) || !std::isfinite(at[2]))
-    {
-      refuse(file, "point " + std::to_string(point) + " is not finite");
-    }
-  }
-  auto cells = vtk::TakeSmartPointer(mesh->GetPolys()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
-  {
-    vtkIdType size = 0;
-    const vtkIdType* corners = nullptr;
-    cells->GetCurrentCell(size, corners);
-    for (vtkIdType corner = 0; corner < size; ++corner)
-    {
-      if (corners[corner] < 0 || corners[corner] >= mesh->GetNumberOfPoints())
-      {
-        refuse(file, "face " + std::to_string(cells->GetCurrentCellId()) + " names point " + std::to_string(corners[corner]) + ", there are " +
-            std::to_string(mesh->GetNumberOfPoints()));
-      }
-    }
-  }
-}
-
 vtkSmartPointer<vtkPolyData> readByFormat(const std::filesystem::path& file)
 {
   const std::string format = formatOf(file);
@@ -184,7 +153,8 @@ vtkSmartPointer<vtkPolyData> readMesh(const std::filesystem::path& file)
     throw ProgramError(FileFailed, "cannot read mesh " + file.string() + ": not a file that can be opened");
   }
   const vtkSmartPointer<vtkPolyData> read = readByFormat(file);
-  checkNumbers(file, read);
+  refuse(file, pointsFault(read));
+  refuse(file, cornersFault(read));
   vtkNew<vtkTriangleFilter> triangles;
   triangles->SetInputData(read);
   triangles->PassVertsOff();
