@@ -239,16 +239,16 @@ private:
     {
       std::reverse(bytes.begin(), bytes.begin() + type.size);
     }
-    switch (type.kind == 'f' ? 10 * type.size : type.kind == 'i' ? type.size : -type.size)
+    if (type.kind == 'f')
     {
-      case 80: return as<double>(bytes);
-      case 40: return as<float>(bytes);
-      case 4: return as<std::int32_t>(bytes);
-      case 2: return as<std::int16_t>(bytes);
-      case 1: return as<std::int8_t>(bytes);
-      case -4: return as<std::uint32_t>(bytes);
-      case -2: return as<std::uint16_t>(bytes);
-      default: return as<std::uint8_t>(bytes);
+      return type.size == 8 ? as<double>(bytes) : as<float>(bytes);
+    }
+    const bool isSigned = type.kind == 'i';
+    switch (type.size)
+    {
+      case 4: return isSigned ? as<std::int32_t>(bytes) : as<std::uint32_t>(bytes);
+      case 2: return isSigned ? as<std::int16_t>(bytes) : as<std::uint16_t>(bytes);
+      default: return isSigned ? as<std::int8_t>(bytes) : as<std::uint8_t>(bytes);
     }
   }
 
