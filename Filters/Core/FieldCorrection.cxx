@@ -25,6 +25,12 @@ namespace
 constexpr std::size_t BlockPoints = FieldViews::BlockPoints;
 constexpr double FinestShift = 0.1; ///< px: the contours of clean silhouettes seem shifted by up to two thirds of this
 constexpr int MostAlignments = 100;
+constexpr std::size_t ViewsToJudgeBy = 6; ///< whether cameras are wrong; fewer may be so by chance
+/**
+ * How far a round's shifts are gone: a first round leaves about a fifth of them, later ones half of what there is, since the surface, the least of all views', follows the
+ * wrong ones.
+ */
+constexpr double FirstStep = 1.25, LaterStep = 1.6;
 constexpr double SamplesPerOctant = 2.0; ///< of the silhouettes' distances: they are straight but for corners
 constexpr int MostHalvings = 3;          ///< between the lattice of the field and that of the octants
 constexpr double FinestSmoothing = 3.0;  ///< octants of the field's lattice
@@ -42,6 +48,7 @@ void check(const FieldCorrectionOptions& options)
   };
   require(options.smallestDeficit >= 0.0, "smallest deficit", options.smallestDeficit);
   require(options.smallestShift >= 0.0, "smallest shift", options.smallestShift);
+  require(options.shiftNoise >= 0.0, "shift noise", options.shiftNoise);
   require(options.alignments >= 1 && options.alignments <= MostAlignments, "number of alignments", options.alignments);
   require(options.modelDissent >= 0.0 && options.modelDissent <= 1.0, "model dissent", options.modelDissent);
   require(options.smoothing >= 0.0, "smoothing", options.smoothing);
@@ -120,9 +127,9 @@ public:
     this->Least = BrickField(this->Views.lattice(), cells, int(std::ceil(this->Band)), execution);
     this->Views.observe(this->All, execution);
     result.remainingDeficit = result.deficit;
-    if (this->Options.alignViews)
+    const bool isAligned = this->Options.alignViews && this->align(measured, execution);
+    if (isAligned)
     {
-      this->align(measured, execution);
       double sum = 0.0;
       for (const int view : this->All)
       {
@@ -132,7 +139,7 @@ public:
     }
     execution.checkpoint(0.5);
     this->findLeast(this->modelRank(), execution);
-    if (this->Options.alignViews)
+    if (isAligned)
     {
       result.remainingDeficit = std::max(0.0, typicalResidual(this->residuals(this->Least.contourMesh(execution), this->Some, execution)));
     }
@@ -169,12 +176,24 @@ private:
     return all;
   }
 
+  /** Do residuals of `views` tell of wrong cameras? `residuals`: their common shift is taken out. */
+  bool tellsOfCameras(const std::vector<int>& views, std::vector<ContourResidual>& residuals) const
+  {
+    removeCommonShift(this->Views, views, residuals);
+    return noiseShare(residuals) <= this->Options.shiftNoise;
+  }
+
   /**
    * Shift the views towards the contours of the surface, then of the surface of the shifted views, and so on. Where the field's lattice is coarser than the
-   * surface's, its own surface comes first: it has fewer triangles.
+   * surface's, its own surface comes first: it has fewer triangles. False where chance alone may have shifted them: then they are left as they are.
    */
-  void align(const std::vector<ContourResidual>& measured, Execution& execution)
+  bool align(const std::vector<ContourResidual>& measured, Execution& execution)
   {
+    std::vector<ContourResidual> some = measured;
+    if (some.size() >= ViewsToJudgeBy && !this->tellsOfCameras(this->Some, some))
+    {
+      return false;
+    }
     for (int round = 0; round < this->Options.alignments; ++round)
     {
       const bool isMeasured = round == 0 && this->Length.octants == 1.0;
@@ -183,13 +202,17 @@ private:
         this->findLeast(1, execution);
       }
       auto residuals = isMeasured ? this->completed(measured, execution) : this->residuals(this->Least.contourMesh(execution), this->All, execution);
-      removeCommonShift(this->Views, this->All, residuals);
+      if (!this->tellsOfCameras(this->All, residuals) && round == 0)
+      {
+        return false;
+      }
       for (const int view : this->All)
       {
-        this->Views.addShift(view, residuals[view].shift);
+        this->Views.addShift(view, (round == 0 ? FirstStep : LaterStep) * residuals[view].shift);
       }
       execution.checkpoint(0.5 * (round + 1) / this->Options.alignments);
     }
+    return true;
   }
 
   /** Of the distances in the observed silhouettes, which is the model's? */

@@ -37,7 +37,12 @@ struct FieldCorrectionOptions
    * is the pixels' own, and never does.
    */
   double smallestShift = 0.025;
-  int alignments = 2; ///< rounds of shifting, 1 or more; larger comes closer and costs in proportion
+  /**
+   * Share of the shifts' squares, 0 or more: where chance explains more of them (noiseShare()) contours are noisy, not cameras wrong, and no view is shifted. Larger
+   * shifts more readily.
+   */
+  double shiftNoise = 0.2;
+  int alignments = 3; ///< rounds of shifting, 1 or more; larger comes closer and costs in proportion
   /**
    * Share of the views, 0 to 1: the model's value at a point is the n-th least of the views' distances, n being this share of them, at least 2; larger
    * keeps more of what is nearly as thin as the noise. Beyond depth 7 in inverse proportion to 2^depth, since fewer views compete within an octant.

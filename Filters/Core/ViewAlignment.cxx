@@ -7,7 +7,9 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace silhouette
@@ -17,14 +19,45 @@ namespace
 
 constexpr double LeastThickness = 1.5; ///< octants
 constexpr double LeastShare = 0.2;     ///< of a view's contour places; where fewer are thick, the view says nothing
+constexpr int Squares = 8;             ///< along a contour's extent
+constexpr int Unknowns = 3;            ///< of a fit
+
+/** Contour places by squares of the image, an eighth of the contour's extent wide. */
+class ContourSquares
+{
+public:
+  explicit ContourSquares(const std::vector<ContourPlace>& places)
+  {
+    std::array<std::int32_t, 4> box{ std::numeric_limits<std::int32_t>::max(), -1, std::numeric_limits<std::int32_t>::max(), -1 };
+    for (const ContourPlace& place : places)
+    {
+      box = { std::min(box[0], place.column), std::max(box[1], place.column), std::min(box[2], place.row), std::max(box[3], place.row) };
+    }
+    this->Left = box[0];
+    this->Top = box[2];
+    this->PerPixel = Squares / (std::max(double(box[1]) - box[0], double(box[3]) - box[2]) + 1.0);
+  }
+
+  std::size_t of(double u, double v) const
+  {
+    const auto number = [this](double x) { return std::size_t(std::clamp(int(x * this->PerPixel), 0, Squares - 1)); };
+    return number(u - this->Left) + Squares * number(v - this->Top);
+  }
+
+private:
+  double Left = 0.0; ///< px
+  double Top = 0.0;
+  double PerPixel = 1.0;
+};
 
 /** Least squares of residual = constant - normal . shift over contour places. */
 template <typename Distances>
 class Fit
 {
 public:
-  Fit(const SilhouetteRuns& surface, Distances& distances, double pixelsPerOctant)
+  Fit(const SilhouetteRuns& surface, const ContourSquares& squares, Distances& distances, double pixelsPerOctant)
     : Surface(surface)
+    , SquareOf(squares)
     , Map(distances)
     , Scale(pixelsPerOctant)
   {
@@ -46,8 +79,9 @@ public:
     }
     this->Residuals.push_back(float(residual));
     const Eigen::Vector3d row(-gradient[0] / length, -gradient[1] / length, 1.0);
-    this->Normal += row * row.transpose();
-    this->Right += residual * row;
+    Equations& equations = this->InSquare[this->SquareOf.of(u, v)];
+    equations.normal += row * row.transpose();
+    equations.right += residual * row;
   }
 
   ContourResidual result()
@@ -61,15 +95,45 @@ public:
     if (residual.count > 0)
     {
       residual.mean = this->trimmedMean() / this->Scale;
-      // A little damping, so that a straight contour is not shifted along itself.
-      Eigen::Matrix3d normal = this->Normal;
-      normal.diagonal().array() += 1e-3 * normal.trace() + 1e-12;
-      residual.shift = normal.ldlt().solve(this->Right).head<2>();
+      this->solve(residual);
     }
     return residual;
   }
 
 private:
+  struct Equations
+  {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  };
+
+  /**
+   * The shift, and its variance from the squares' misfits: places of one square count as one, since neighbours err alike (the
+   * estimate of standard errors by clusters; Liang and Zeger 1986).
+   */
+  void solve(ContourResidual& residual) const
+  {
+    Equations all;
+    for (const Equations& equations : this->InSquare)
+    {
+      all.normal += equations.normal;
+      all.right += equations.right;
+    }
+    // A little damping, so that a straight contour is not shifted along itself.
+    all.normal.diagonal().array() += 1e-3 * all.normal.trace() + 1e-12;
+    const Eigen::LDLT<Eigen::Matrix3d> solver(all.normal);
+    const Eigen::Vector3d found = solver.solve(all.right);
+    residual.shift = found.head<2>();
+    double squares = 0.0;
+    for (const Equations& equations : this->InSquare)
+    {
+      const Eigen::Vector3d misfit = solver.solve(equations.right - equations.normal * found);
+      squares += equations.normal(2, 2) > 0.0; // the constant's is the number of places
+      residual.noise += misfit.head<2>().squaredNorm();
+    }
+    residual.noise = squares > Unknowns ? residual.noise * squares / (squares - Unknowns) : residual.shift.squaredNorm();
+  }
+
   Vector2 gradient(double u, double v) const
   {
     Distances& map = this->Map;
@@ -97,20 +161,22 @@ private:
   }
 
   const SilhouetteRuns& Surface;
+  const ContourSquares& SquareOf;
   Distances& Map;
   double Scale; ///< pixels for an octant
   std::size_t Places = 0;
   std::vector<float> Residuals;
-  Eigen::Matrix3d Normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d Right = Eigen::Vector3d::Zero();
+  std::array<Equations, Squares * Squares> InSquare;
 };
 
 /** Every place between two pixels of which one belongs to the surface. */
 template <typename Distances>
 ContourResidual compare(const SilhouetteRuns& surface, Distances&& distances, double limit, double pixelsPerOctant)
 {
-  Fit fit(surface, distances, pixelsPerOctant);
-  for (const ContourPlace& place : contourPlaces(surface))
+  const std::vector<ContourPlace> places = contourPlaces(surface);
+  const ContourSquares squares(places);
+  Fit fit(surface, squares, distances, pixelsPerOctant);
+  for (const ContourPlace& place : places)
   {
     fit.add(place.column + (place.isBelow ? 0.0 : 0.5), place.row + (place.isBelow ? 0.5 : 0.0), limit);
   }
@@ -167,6 +233,21 @@ Vector3 removeCommonShift(
     }
   }
   return move;
+}
+
+double noiseShare(const std::vector<ContourResidual>& residuals)
+{
+  double noise = 0.0, squares = 0.0, numbers = 0.0;
+  for (const auto& residual : residuals)
+  {
+    if (residual.count > 0)
+    {
+      noise += residual.noise;
+      squares += residual.shift.squaredNorm();
+      numbers += 2.0;
+    }
+  }
+  return squares > 0.0 ? noise / squares * std::max(1.0, numbers - 3.0) / numbers : std::numeric_limits<double>::infinity();
 }
 
 double typicalResidual(const std::vector<ContourResidual>& residuals)

@@ -17,6 +17,7 @@ struct ContourResidual
   std::size_t count = 0;            ///< contour places that were compared
   double mean = 0.0;                ///< octants: how far the observed contour lies outside the surface's, trimmed by a tenth
   Vector2 shift = Vector2::Zero();  ///< px: the least-squares shift of the surface's contour towards the observed one
+  double noise = 0.0; ///< px^2: how large the shift's square would be if it were by chance, from how unlike the contour's parts are
 };
 
 /**
@@ -35,6 +36,12 @@ std::vector<ContourResidual> contourResiduals(
  */
 Vector3 removeCommonShift(
   const FieldViews& fieldViews, const std::vector<int>& views, std::vector<ContourResidual>& residuals);
+
+/**
+ * The share of the shifts' squares that chance explains, once what a move of the whole object does is taken out of them: about 1 where contours are noisy, some hundredths where cameras are wrong, whose errors
+ * move whole contours. Views that say nothing do not count; infinite where there is no shift.
+ */
+double noiseShare(const std::vector<ContourResidual>& residuals);
 
 /** The mean of the residuals' means, by count; octants. */
 double typicalResidual(const std::vector<ContourResidual>& residuals);

@@ -225,6 +225,7 @@ public:
     pair(self.Smoothing, options.correction.smoothing);
     pair(self.GreatestSmoothing, options.correction.greatestSmoothing);
     pair(self.Gentleness, options.correction.gentleness);
+    pair(self.ShiftNoise, options.correction.shiftNoise);
     pair(self.Alignments, options.correction.alignments);
     pair(self.ContourReach, options.correction.contourReach);
     pair(self.ThinSmallestRadius, options.thin.smallestRadius);
@@ -469,6 +470,7 @@ void vtkLocalHullSurfacer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Smoothing: " << this->Smoothing << "\n";
   os << indent << "GreatestSmoothing: " << this->GreatestSmoothing << "\n";
   os << indent << "Gentleness: " << this->Gentleness << "\n";
+  os << indent << "ShiftNoise: " << this->ShiftNoise << "\n";
   os << indent << "Alignments: " << this->Alignments << "\n";
   os << indent << "ContourReach: " << this->ContourReach << "\n";
   os << indent << "ThinSmallestRadius: " << this->ThinSmallestRadius << "\n";

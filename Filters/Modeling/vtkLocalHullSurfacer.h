@@ -341,7 +341,16 @@ public:
   ///@}
 
   ///@{
-  /** AlignViews: rounds of shifting, 1 to 100, default 2. Larger comes closer and costs in proportion. */
+  /**
+   * AlignViews: where chance explains more than this share of the squares of the views' shifts, as noisy contours do and wrong
+   * cameras do not, no view is shifted; at least 0, default 0.2. Larger shifts more readily.
+   */
+  vtkSetMacro(ShiftNoise, double);
+  vtkGetMacro(ShiftNoise, double);
+  ///@}
+
+  ///@{
+  /** AlignViews: rounds of shifting, 1 to 100, default 3. Larger comes closer and costs in proportion. */
   vtkSetMacro(Alignments, int);
   vtkGetMacro(Alignments, int);
   ///@}
@@ -516,6 +525,7 @@ protected:
   double Smoothing;
   double GreatestSmoothing;
   double Gentleness;
+  double ShiftNoise;
   int Alignments;
   double ContourReach;
   double ThinSmallestRadius;

@@ -61,6 +61,17 @@ public:
     return prepareViews(views);
   }
 
+  /** Every second view. */
+  PreparedViews preparedHalf() const
+  {
+    std::vector<View> views;
+    for (std::size_t view = 0; view < this->Views.views.size(); view += 2)
+    {
+      views.push_back({ this->Views.views[view].name, this->Views.views[view].projection, this->Views.views[view].mask });
+    }
+    return prepareViews(views);
+  }
+
   /** What the silhouettes can tell at best: the hull of the clean ones, by a finer lattice. */
   const Mesh& cleanHull()
   {

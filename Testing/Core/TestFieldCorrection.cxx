@@ -161,16 +161,74 @@ TEST(FieldCorrection, ASurfaceThatIsMovedAsAWholeShiftsNoView)
   captureOf(SyntheticShape::Torus).draw(3.0, 0.0, 4);
   Corrected noisy(captureOf(SyntheticShape::Torus));
   ASSERT_TRUE(noisy.correction.field.has_value());
+  FieldCorrectionOptions options;
+  options.shiftNoise = 1e9; // the contours are noisy, not the cameras wrong
+  const FieldCorrection unmoved = noisy.correct(options, execution);
+  EXPECT_GT(unmoved.alignment, 0.1);
   const double octants = 0.6;
   for (Vector3& p : noisy.exact.points)
   {
     p += octants * noisy.lattice.leafEdge() * Vector3(0.6, 0.0, 0.8);
   }
-  const FieldCorrection moved = noisy.correct({}, execution);
+  const FieldCorrection moved = noisy.correct(options, execution);
   ASSERT_TRUE(moved.field.has_value());
   const double pixels = FieldViews(noisy.views, noisy.lattice, 4.0).pixelsPerOctant(0);
-  EXPECT_GT(moved.shift, noisy.correction.shift + 0.2 * octants); // the views see it
-  EXPECT_LT(moved.alignment, noisy.correction.alignment + 0.15 * octants * pixels);
+  EXPECT_GT(moved.shift, unmoved.shift + 0.2 * octants); // the views see it
+  EXPECT_LT(moved.alignment, unmoved.alignment + 0.15 * octants * pixels);
+  EXPECT_EQ(noisy.correct({}, execution).alignment, 0.0); // nor does it make them seem wrong
+}
+
+TEST(FieldCorrection, ViewsAreShiftedForWrongCamerasNotForNoisyContours)
+{
+  Execution execution;
+  FieldCorrectionOptions always, never;
+  always.shiftNoise = 1e9;
+  never.alignViews = false;
+  for (const SyntheticShape shape : { SyntheticShape::Sphere, SyntheticShape::Torus })
+  {
+    Capture& capture = captureOf(shape);
+    for (const bool few : { false, true }) // too few thirds to be judged by alone
+    {
+      const auto correctionOf = [&](double contour, double camera, const FieldCorrectionOptions& options)
+      {
+        capture.draw(contour, camera, 3);
+        return Corrected(few ? capture.preparedHalf() : capture.prepared(), options);
+      };
+      const std::string what = "shape " + std::to_string(int(shape)) + (few ? ", few views" : "");
+      const Corrected noisy = correctionOf(1.2, 0.0, {});
+      ASSERT_TRUE(noisy.correction.field) << what;
+      EXPECT_EQ(noisy.correction.alignment, 0.0) << what;
+      EXPECT_EQ(noisy.correction.remainingDeficit, noisy.correction.deficit) << what;
+      EXPECT_EQ(noisy.correction.field->values(), noisy.correct(never, execution).field->values()) << what;
+      EXPECT_GT(noisy.correct(always, execution).alignment, 0.05) << what;
+      const Corrected wrong = correctionOf(0.0, 1.0, {});
+      ASSERT_TRUE(wrong.correction.field) << what;
+      EXPECT_GT(wrong.correction.alignment, 0.5) << what;
+      EXPECT_EQ(wrong.correction.field->values(), wrong.correct(always, execution).field->values()) << what;
+    }
+  }
+}
+
+TEST(FieldCorrection, ASecondRoundOfShiftsComesCloser)
+{
+  Execution execution;
+  for (const SyntheticShape shape : { SyntheticShape::Sphere, SyntheticShape::Torus })
+  {
+    Capture& capture = captureOf(shape);
+    capture.draw(0.0, 1.5, 2);
+    const Corrected wrong(capture);
+    double last = errorOf(wrong.exact, capture.cleanHull(), wrong.lattice);
+    for (const int rounds : { 1, 2 })
+    {
+      FieldCorrectionOptions options;
+      options.alignments = rounds;
+      const auto correction = wrong.correct(options, execution);
+      ASSERT_TRUE(correction.field);
+      const double error = errorOf(correction.field->contourMesh(execution), capture.cleanHull(), wrong.lattice);
+      EXPECT_LT(error, (rounds == 1 ? 0.75 : 0.98) * last) << "shape " << int(shape) << ", rounds " << rounds;
+      last = error;
+    }
+  }
 }
 
 TEST(FieldCorrection, SmoothingIsNoWiderThanTheLattice)
@@ -402,7 +460,7 @@ TEST(FieldCorrection, OptionsOutOfRangeAreErrorsThatNameTheValue)
   };
   for (const auto member : { &Options::smallestDeficit, &Options::smallestShift, &Options::hullConvexity,
          &Options::modelDissent, &Options::smoothing, &Options::greatestSmoothing,
-         &Options::gentleness, &Options::contourReach })
+         &Options::gentleness, &Options::shiftNoise, &Options::contourReach })
   {
     Options options;
     options.*member = -1.5;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numeric>
 
 using namespace silhouette;
@@ -211,6 +212,58 @@ TEST(ViewAlignment, OneViewTellsNoMoveOfTheObject)
   EXPECT_EQ(residuals[5].shift, Vector2(1.0, 2.0));
 }
 
+TEST(ViewAlignment, ChanceIsToldFromWhatNoiseDoesToTheShifts)
+{
+  Execution execution;
+  for (const SyntheticShape shape : { SyntheticShape::Sphere, SyntheticShape::Jug, SyntheticShape::Torus })
+  {
+    const Mesh mesh = coarse(shape);
+    SyntheticCaptureOptions options;
+    options.photographs = false;
+    options.views = Views;
+    options.width = options.height = Size;
+    SyntheticCapture capture = synthesizeCapture(mesh, options, execution);
+    const auto residualsFor = [&](double contour, double camera, std::uint64_t seed)
+    {
+      options.noiseContour = contour;
+      options.noiseCamera = camera;
+      options.seed = seed;
+      redrawNoise(capture, mesh, options, execution);
+      std::vector<View> views;
+      for (const auto& view : capture.views)
+      {
+        views.push_back({ view.name, view.projection, view.mask });
+      }
+      return residualsOf(prepareViews(views), mesh, execution);
+    };
+    double noise = 0.0, squares = 0.0;
+    for (const std::uint64_t seed : { 1, 2, 3, 4, 5, 6 })
+    {
+      for (const ContourResidual& residual : residualsFor(1.0, 0.0, seed))
+      {
+        ASSERT_GT(residual.noise, 0.0);
+        noise += residual.noise;
+        squares += residual.shift.squaredNorm();
+      }
+      EXPECT_GT(noiseShare(residualsFor(1.0, 0.0, seed)), 0.3) << "shape " << int(shape) << " seed " << seed;
+      EXPECT_LT(noiseShare(residualsFor(0.0, 1.0, seed)), 0.05) << "shape " << int(shape) << " seed " << seed;
+    }
+    EXPECT_GT(noise, 0.6 * squares) << "shape " << int(shape);
+    EXPECT_LT(noise, 1.5 * squares) << "shape " << int(shape);
+  }
+}
+
+TEST(ViewAlignment, TheNoisesShareIsOfWhatIsLeftWithoutACommonShift)
+{
+  EXPECT_EQ(noiseShare({}), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(noiseShare({ { 10, 0.0, Vector2::Zero(), 1.0 } }), std::numeric_limits<double>::infinity());
+  const ContourResidual silent{ 0, 0.0, Vector2(9.0, 9.0), 50.0 };
+  EXPECT_DOUBLE_EQ(noiseShare({ { 10, 0.0, Vector2(1.0, 2.0), 2.0 }, silent }), 2.0 / 5.0 / 2.0);
+  // Six numbers less the three of a move.
+  EXPECT_DOUBLE_EQ(noiseShare({ { 10, 0.0, Vector2(1.0, 0.0), 2.0 }, { 90, 0.0, Vector2(0.0, 2.0), 1.0 }, silent,
+                     { 10, 0.0, Vector2(1.0, 1.0), 4.0 } }), 7.0 / 7.0 / 2.0);
+}
+
 TEST(ViewAlignment, TheTypicalResidualIsTheMeanByCount)
 {
   EXPECT_EQ(typicalResidual({}), 0.0);
@@ -234,6 +287,7 @@ TEST(ViewAlignment, SameForAnyNumberOfThreads)
       EXPECT_EQ(many[view].count, one[view].count);
       EXPECT_EQ(many[view].mean, one[view].mean);
       EXPECT_EQ(many[view].shift, one[view].shift);
+      EXPECT_EQ(many[view].noise, one[view].noise);
     }
   }
 }
