@@ -274,8 +274,8 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
   const CrossingPlacer place(labels, crossings, views, added, options.coverOffset);
   Phase contouring(execution, 0.4, 1.0);
   makeSurface(labels, survivors, covering, place, added, latticeViews ? &*latticeViews : nullptr, options, surface, contouring);
-  return !labels.field() || !options.fillCavities ||
-    countComponents(surface.mesh, execution) <= survivors.components;
+  const bool isCorrected = labels.field() || &labels.octree() != &survivors.octree;
+  return !isCorrected || !options.fillCavities || countComponents(surface.mesh, execution) <= survivors.components;
 }
 
 /** Nothing corrected, and nothing given up. */
@@ -335,14 +335,14 @@ LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& carved, cons
   if (options.islandShare > 0.0)
   {
     kept = withoutCrumbs(carved, capture, options.islandShare, surface.dropped, execution);
-    if (capture.recarved)
-    {
-      Unannounced leaving(execution);
-      capture.recarved = withoutStrangers(*capture.recarved, *kept, leaving);
-    }
     shell = intersectionShell(*kept, execution);
   }
   const Octree& octree = kept ? *kept : carved;
+  if (capture.recarved)
+  {
+    Unannounced leaving(execution);
+    capture.recarved = withoutStrangers(*capture.recarved, octree, leaving);
+  }
   Survivors survivors(octree, std::move(shell), options.bridgeGap, execution);
   survivors.count(surface);
   LatticeLabels labels = correctedLabels(octree, std::move(survivors.shell), survivors.bridgePoints, views, capture, execution);

@@ -6,7 +6,11 @@
 #include "MeshDistance.h"
 #include "SurvivorCoverage.h"
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
+
+#include <array>
+#include <utility>
 
 using namespace silhouette;
 using namespace silhouette::test;
@@ -60,6 +64,47 @@ struct Scene
   Octree octree;
   VotingSurface surface;
 };
+
+/** An ellipse that fills two thirds of an image. */
+BinaryImage ellipse(int width, int height)
+{
+  BinaryImage image{ width, height, std::vector<std::uint8_t>(std::size_t(width) * height) };
+  for (int row = 0; row < height; ++row)
+  {
+    for (int column = 0; column < width; ++column)
+    {
+      const double x = (column - (width - 1) / 2.0) / width, y = (row - (height - 1) / 2.0) / height;
+      image.at(column, row) = x * x + y * y < 0.12;
+    }
+  }
+  return image;
+}
+
+BinaryImage imageOf(int width, int height, std::vector<std::uint8_t> pixels)
+{
+  return { width, height, std::move(pixels) };
+}
+
+/** Four pixels a hexadecimal digit, the first one lowest. */
+BinaryImage imageOf(int width, int height, const std::string& digits)
+{
+  BinaryImage image{ width, height, {} };
+  for (int pixel = 0; pixel < width * height; ++pixel)
+  {
+    const char digit = digits[std::size_t(pixel / 4)];
+    const int bits = digit <= '9' ? digit - '0' : digit - 'a' + 10;
+    image.pixels.push_back(std::uint8_t(bits >> pixel % 4 & 1));
+  }
+  return image;
+}
+
+View viewOf(const std::array<double, 12>& matrix, BinaryImage silhouette)
+{
+  View view;
+  view.projection = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(matrix.data());
+  view.silhouette = std::move(silhouette);
+  return view;
+}
 
 } // namespace
 
@@ -262,6 +307,49 @@ TEST(LocalHullSurface, DebrisIsGivenUpWithTheIslands)
   EXPECT_EQ(soundness.genus.value(), assessMesh(truth, execution).genus.value());
   EXPECT_LT(without, 0.05);
   EXPECT_LT(without, 0.3 * kept);
+}
+
+/** A capture, found among random ones, whose repair fills a place that holds no survivor; no field corrects it. */
+TEST(LocalHullSurface, ARepairAddsNoComponent)
+{
+  const std::string noisy = "00400000800000000000002040000000080000000200000009c30000e70000ff0008ff100cff300cf7301cff300eff540eff700aff708ffff00f7ff00ffff00f"
+                            "fbf00ffff00ffff00fff700dfff00ffff00fffe00ffbb00feff00ffff00ffff00ffff00ffff006ef700eff700eff780cff300cff302cef3008ff1000ff0000e7"
+                            "0400c300100004000050000400400000000000000000008400010000";
+  const PreparedViews views = prepareViews({
+    viewOf({ 28.46979879367295, 9.7097651466063244, -2.2297962792423114, 18.43483786056531, 7.5629853594521776, 2.4872556513383302, -5.6205405038599645,
+             5.8159672349472809, 0.77049467603815591, 0.55089506658438203, -0.32070637631616628, 0.65723984267018298 },
+      ellipse(57, 19)),
+    viewOf({ -1.2971417198714614, 2.1163368941467744, -1.1944973998990591, 2.2894606464460265, -3.7650438429566395, -1.7112731447156473, 0.63806330075255213,
+             4.6345120615582944, -0.34663528752456546, 0.47899030508205959, 0.80648141025082365, 4.6982402245839667 },
+      imageOf(2, 3, std::vector<std::uint8_t>{ 0, 0, 0, 1, 0, 0 })),
+    viewOf({ 3.7567636526635422, 17.043739995247037, 33.444894803649433, 24.610880017699674, 11.797310259382973, -18.79945638083581, 32.952513281789443,
+             26.65865561928775, 0.70187640646163896, 0.10592377849867596, 0.70437892018505188, 0.86827743020662629 },
+      ellipse(57, 60)),
+    viewOf({ -0.98691714589894886, 1.8341580165076372, 0.72576101328894593, 0.045739273256282242, -0.24183405967847621, -1.7429351432661564, 4.0759261398045759,
+             2.1140547506984673, 0.88083381543762684, 0.34616375309939251, 0.32295889153534002, 4.5708447332272142 },
+      imageOf(1, 2, std::vector<std::uint8_t>{ 1, 1 })),
+    viewOf({ 0.6208656435053066, 1.3769277103370254, 1.1871386592647661, 0.023902979443955363, 5.0086467854989838, -20.348606957639404, 20.982270169339579,
+             34.203155983376043, 0.94469896437453227, -0.28275661890854836, -0.16611008751154144, 4.7030768150454589 },
+      imageOf(1, 15, std::vector<std::uint8_t>(15, 1))),
+    viewOf({ 6.7612599660714885, -7.6242677789302054, 6.3069071774216399, 2.6395332237474336, 6.5721861878564543, -15.99598728450526, 20.113828636512157,
+             5.6853139635361565, 0.316295334525173, -0.77340199824409683, 0.54936928424298259, 0.22504813159126499 },
+      imageOf(24, 52, noisy)),
+  });
+  const RootCube cube{ { -1.4336150120943785, -0.65593220014125109, -1.444470897084102 }, 2.4649056014604867 };
+  const Octree octree = carveViews(views, cube, 5);
+  Execution execution;
+  VotingOptions voting;
+  voting.edges = EdgePlacement::SubPixel;
+  const Mesh imperfect = votingMarchingCubes(octree, views, voting, execution).mesh;
+  LocalHullOptions options;
+  options.bridgeGap = 0;
+  options.tunnels.width = 1;
+  options.tunnels.loop = 1.3259072708897293;
+  options.handles.loop = 0.89085924299433827;
+  options.repair.blobDepth = 0.10884854127652943;
+  const LocalHullSurface surface = localHullSurface(imperfect, octree, &views, options, execution);
+  EXPECT_GT(countSurvivorComponents(octree, execution), 0u);
+  expectPromise(surface.mesh, octree, "a repair without survivors");
 }
 
 TEST(LocalHullSurface, ACleanCaptureHasNothingToGiveUp)
