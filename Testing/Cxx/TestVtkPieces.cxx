@@ -99,15 +99,21 @@ int countRuns(vtkAlgorithm* filter, vtkCallbackCommand* command, int& count)
   return int(filter->AddObserver(vtkCommand::StartEvent, command));
 }
 
-/** UpdatePiece() of any output. */
+/** UpdatePiece() of any output; -1: of all. */
 void updatePiece(vtkAlgorithm* filter, int port, int piece, int count)
 {
   vtkNew<vtkInformationVector> requests;
   requests->SetNumberOfInformationObjects(filter->GetNumberOfOutputPorts());
-  vtkInformation* request = requests->GetInformationObject(port);
-  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
-  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), count);
-  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  for (int each = 0; each < filter->GetNumberOfOutputPorts(); ++each)
+  {
+    if (port < 0 || each == port)
+    {
+      vtkInformation* request = requests->GetInformationObject(each);
+      request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
+      request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), count);
+      request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
+  }
   filter->Update(port, requests);
 }
 
@@ -259,6 +265,21 @@ TEST(VtkPieces, OfOneOutputLeaveAnotherPieceOfTheOtherAlone)
     parts.octree->UpdatePiece(1, 2, 0);
     EXPECT_EQ(field(parts.octree->GetOutput(), "NumberOfPieces"), 2) << count;
     EXPECT_EQ(field(parts.octree->GetOutput(), "IntersectionOctants"), octants) << count;
+  }
+}
+
+TEST(VtkPieces, OfBothOutputsAreMadeOnceForWhoAsksForTheOtherLater)
+{
+  Pipeline parts;
+  int runs = 0;
+  vtkNew<vtkCallbackCommand> command;
+  countRuns(parts.octree, command, runs);
+  for (int piece = 0; piece < 3; ++piece)
+  {
+    updatePiece(parts.octree, -1, piece, 3);
+    parts.cubes->UpdatePiece(piece, 3, 0);
+    EXPECT_EQ(runs, piece + 1);
+    EXPECT_EQ(field(parts.octree->GetOutput(), "Piece"), piece);
   }
 }
 

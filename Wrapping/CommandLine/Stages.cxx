@@ -6,10 +6,14 @@
 #include "vtkAlgorithm.h"
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkInformationVector.h"
 #include "vtkLogger.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOutputWindow.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 #include <chrono>
@@ -106,6 +110,22 @@ public:
 };
 vtkStandardNewMacro(WarningWindow);
 
+/** Of all outputs: one that is asked for later, by itself, would be made by all the work again. */
+void updatePiece(vtkAlgorithm* filter, int piece, int pieces)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkNew<vtkInformationVector> requests;
+  requests->SetNumberOfInformationObjects(filter->GetNumberOfOutputPorts());
+  for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+  {
+    vtkInformation* request = requests->GetInformationObject(port);
+    request->Set(Pipeline::UPDATE_PIECE_NUMBER(), piece);
+    request->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
+    request->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+  filter->Update(-1, requests);
+}
+
 } // namespace
 
 std::string plainMessage(const char* vtkText)
@@ -146,7 +166,7 @@ void Stages::run(
     const Observation observation(filter, this->Bar);
     if (pieces > 1)
     {
-      filter->UpdatePiece(piece, pieces, 0);
+      updatePiece(filter, piece, pieces);
     }
     else
     {
