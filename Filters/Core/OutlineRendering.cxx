@@ -275,6 +275,7 @@ struct OutlineCollection
 {
   const std::vector<std::uint64_t>& faced; ///< by triangles
   std::vector<OutlineLists> ofCameras;
+  std::size_t workers = 0;
   std::mutex adding;
 
   OutlineCollection(const std::vector<std::uint64_t>& cameras, std::size_t count)
@@ -291,6 +292,12 @@ struct OutlineCollection
       : All(&all)
       , Own(all.ofCameras.size())
     {
+      const std::lock_guard<std::mutex> lock(all.adding);
+      ++all.workers;
+      for (OutlineLists& lists : all.ofCameras)
+      {
+        lists.reserve(all.workers); // handing over must not throw
+      }
     }
     Worker(Worker&& other) noexcept
       : All(std::exchange(other.All, nullptr))
