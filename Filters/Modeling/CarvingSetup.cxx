@@ -221,6 +221,32 @@ Octree carvePiece(const LatticeViews& views, int backgroundVotes, const Piece& p
   return empty;
 }
 
+/** With more votes, or dilated silhouettes, where silhouettes are not covered. */
+CarvedViews carveWithTolerance(const SharedViews& views, const LatticeSettings& settings, const Carve& carveOnce,
+                               const std::function<void(const std::string&)>& warn, Execution& execution)
+{
+  CarvingToleranceOptions options;
+  options.backgroundVotes = settings.backgroundVotes;
+  TolerantCarving found = carveTolerantly(views, carveOnce, options, execution);
+  CarvedViews carved;
+  carved.octree = std::move(found.octree);
+  carved.views = std::move(found.views);
+  carved.dilatedViews = std::move(found.dilatedViews);
+  carved.dilation = found.dilation;
+  carved.uncovered = found.uncovered;
+  carved.strictUncovered = found.strictUncovered;
+  constexpr double Doubtful = 0.05; // more than noise leaves
+  if (found.uncovered > Doubtful)
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << "the octree leaves " << 100.0 * found.uncovered
+         << " % of the silhouettes uncovered, more than noise does: a camera, or a silhouette, is probably wrong";
+    warn(text.str());
+  }
+  return carved;
+}
+
 } // namespace
 
 Lattice makeLattice(const PreparedViews& views, const LatticeSettings& settings, Execution& execution)
@@ -304,9 +330,27 @@ std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice&
   return warnings;
 }
 
-CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings, bool automaticTolerance,
-                       const std::function<void(const std::string&)>& warn, Execution& execution)
+bool FoundTolerance::isFor(const SharedViews& views, const LatticeSettings& others) const
 {
+  const LatticeSettings& own = this->settings;
+  return this->given && this->given == views && own.depth == others.depth && own.leafEdge == others.leafEdge &&
+         own.automaticBounds == others.automaticBounds && own.bounds == others.bounds &&
+         own.backgroundVotes == others.backgroundVotes;
+}
+
+CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings, bool automaticTolerance,
+                       FoundTolerance& found, const std::function<void(const std::string&)>& warn,
+                       Execution& execution)
+{
+  const bool isLater = settings.piece.number > 0;
+  if (automaticTolerance && isLater && found.isFor(views, settings))
+  {
+    CarvedViews carved{found.used, {}};
+    const LatticeViews latticeViews(*carved.views, found.lattice);
+    carved.octree = carvePiece(latticeViews, found.backgroundVotes, settings.piece, execution);
+    carved.octree.statistics = noStatistics(latticeViews); // the whole's count once
+    return carved;
+  }
   bool warned = false;
   const Carve carveOnce = [&](const PreparedViews& used, int backgroundVotes, Execution& part)
   {
@@ -324,6 +368,7 @@ CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings
     const Piece piece = automaticTolerance ? Piece() : settings.piece;
     return carvePiece(LatticeViews(used, lattice), backgroundVotes, piece, carving);
   };
+  found = FoundTolerance();
   CarvedViews carved;
   if (!automaticTolerance)
   {
@@ -331,32 +376,16 @@ CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings
     carved.views = views;
     return carved;
   }
-  CarvingToleranceOptions options;
-  options.backgroundVotes = settings.backgroundVotes;
-  TolerantCarving found = carveTolerantly(views, carveOnce, options, execution);
-  carved.octree = std::move(found.octree);
-  carved.views = std::move(found.views);
-  carved.dilatedViews = std::move(found.dilatedViews);
-  carved.dilation = found.dilation;
-  carved.uncovered = found.uncovered;
-  carved.strictUncovered = found.strictUncovered;
-  constexpr double Doubtful = 0.05; // more than noise leaves
-  if (found.uncovered > Doubtful)
-  {
-    std::ostringstream text;
-    text.precision(3);
-    text << "the octree leaves " << 100.0 * found.uncovered
-         << " % of the silhouettes uncovered, more than noise does: a camera, or a silhouette, is probably wrong";
-    warn(text.str());
-  }
+  carved = carveWithTolerance(views, settings, carveOnce, warn, execution);
   if (settings.piece.count > 1)
   {
+    found = {views, settings, carved, carved.octree.lattice, carved.octree.backgroundVotes};
     const LatticeViews latticeViews(*carved.views, carved.octree.lattice);
     carved.octree = selectTrees(
         carved.octree, treesOfPiece(latticeViews, carved.octree.backgroundVotes, settings.piece, execution));
-    if (settings.piece.number > 0)
+    if (isLater)
     {
-      carved.octree.statistics = noStatistics(latticeViews); // the whole's count once
+      carved.octree.statistics = noStatistics(latticeViews);
     }
   }
   return carved;

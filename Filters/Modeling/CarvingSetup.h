@@ -36,10 +36,9 @@ Lattice makeLattice(const PreparedViews& views, const LatticeSettings& settings,
 std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice& lattice,
                                       bool automaticBounds);
 
-/** An octree with what it was carved from. */
-struct CarvedViews
+/** What an octree is carved from. */
+struct UsedViews
 {
-  Octree octree;
   SharedViews views;                     ///< those given, or dilated
   std::vector<View> dilatedViews;        ///< empty where nothing was dilated
   int dilation = 0;                      ///< px
@@ -48,15 +47,34 @@ struct CarvedViews
   std::optional<double> strictUncovered;
 };
 
+/** An octree with what it was carved from. */
+struct CarvedViews : UsedViews
+{
+  Octree octree;
+};
+
+/** What an automatic tolerance came to, for the pieces that come later. */
+struct FoundTolerance
+{
+  SharedViews given; ///< for these views, null for none,
+  LatticeSettings settings; ///< and these settings, whatever their piece
+  UsedViews used;
+  Lattice lattice;
+  int backgroundVotes = 0;
+
+  bool isFor(const SharedViews& views, const LatticeSettings& others) const;
+};
+
 /**
  * Find the lattice and carve. With `automaticTolerance`, settings.backgroundVotes are the least, and more
  * votes, or dilated silhouettes, are taken where the silhouettes are not covered (CarvingTolerance.h). What
  * views and lattice deserve as warnings goes to `warn`, before carving: where nothing survives, these say
  * why. Of a piece its own trees alone are carved; with `automaticTolerance` the whole is carved first, since
- * the tolerance is the whole's.
+ * the tolerance is the whole's. What it came to is left in `found`, where it serves the pieces after the first.
  */
 CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings, bool automaticTolerance,
-                       const std::function<void(const std::string&)>& warn, Execution& execution);
+                       FoundTolerance& found, const std::function<void(const std::string&)>& warn,
+                       Execution& execution);
 
 /** A warning where the object reaches through the root cube's border; empty where it does not. */
 std::string cutByBoxWarning(const Octree& octree, const LatticeViews& views);

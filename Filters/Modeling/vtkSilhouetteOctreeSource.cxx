@@ -29,6 +29,7 @@ class vtkSilhouetteOctreeSource::vtkInternals
 {
 public:
   std::vector<ImageView> Added;
+  FoundTolerance Tolerance; ///< of the piece that was carved last
 
   /** The views of the input, then those added. */
   std::vector<ImageView> views(vtkPartitionedDataSetCollection* input) const
@@ -313,7 +314,8 @@ int vtkSilhouetteOctreeSource::RequestData(vtkInformation* request, vtkInformati
     settings.piece = piece;
     const auto warn = [this](const std::string& text)
     { vtkWarningMacro(<< text); };
-    CarvedViews carved = carveViews(views, settings, this->AutomaticTolerance, warn, carving);
+    CarvedViews carved =
+        carveViews(views, settings, this->AutomaticTolerance, this->Internals->Tolerance, warn, carving);
     const std::string cut =
         cutByBoxWarning(carved.octree, silhouette::LatticeViews(*carved.views, carved.octree.lattice));
     if (!cut.empty())

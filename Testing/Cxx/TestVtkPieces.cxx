@@ -380,6 +380,49 @@ TEST(VtkPieces, WithAutomaticToleranceAddUpToo)
   EXPECT_EQ(tested, field(whole.octree->GetOutput(), "OctantsTested"));
 }
 
+TEST(VtkPieces, OfATolerantOctreeAreTheSameWhicheverComesFirst)
+{
+  auto views = ringViews(12);
+  auto* image = vtkImageData::SafeDownCast(views->GetPartition(5, 0));
+  auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer());
+  std::fill_n(pixel, ImageSize * ImageSize / 2, static_cast<unsigned char>(0)); // a view lacks half of the object
+  const auto tolerant = [&](Pipeline& pipeline)
+  {
+    pipeline.extractor->SetInputDataObject(views);
+    pipeline.octree->AutomaticToleranceOn();
+  };
+  Pipeline parts;
+  tolerant(parts);
+  for (const int depth : {6, 5, 5}) // the settings change, then one view
+  {
+    parts.octree->SetDepth(depth);
+    for (int piece = 0; piece < 3; ++piece)
+    {
+      Pipeline alone;
+      tolerant(alone);
+      alone.octree->SetDepth(depth);
+      alone.octree->UpdatePiece(piece, 3, 0);
+      updatePiece(parts.octree, -1, piece, 3);
+      for (const char* name : {"BackgroundVotes", "Dilation", "UncoveredShare", "StrictUncoveredShare", "OctantsTested",
+                               "ViewTests", "IntersectionOctants", "InsideOctants"})
+      {
+        EXPECT_EQ(field(parts.octree->GetOutput(), name), field(alone.octree->GetOutput(), name))
+            << name << ", piece " << piece << ", depth " << depth;
+      }
+      EXPECT_EQ(field(parts.octree->GetOutput(), "OctantsTested") > 0.0, piece == 0);
+      EXPECT_GT(field(parts.octree->GetOutput(), "BackgroundVotes"), 0.0);
+      alone.cubes->SetShare(11.0 / 12.0);
+      parts.cubes->SetShare(11.0 / 12.0);
+      alone.cubes->UpdatePiece(piece, 3, 0);
+      parts.cubes->UpdatePiece(piece, 3, 0);
+      EXPECT_EQ(triangles(parts.cubes->GetOutput()), triangles(alone.cubes->GetOutput()));
+    }
+    std::fill_n(pixel, ImageSize * ImageSize / 3, static_cast<unsigned char>(0));
+    image->Modified();
+    views->Modified();
+  }
+}
+
 TEST(VtkPieces, OfNothingAreAnErrorInEach)
 {
   for (int piece = 0; piece < 2; ++piece)
