@@ -72,7 +72,7 @@ struct LocalHullSurface
   double deficit = 0.0;              ///< octants: the silhouettes' mean deficit before any correction; 0 without views
   double shift = 0.0;                ///< octants: the mean shift of their contours against the surface's; 0 without views
   double alignment = 0.0;            ///< px, the mean length of the views' shifts; 0 where they were not shifted
-  std::uint64_t repairedPixels = 0;  ///< pixels that were filled into silhouettes
+  std::uint64_t repairedPixels = 0;  ///< pixels of the silhouettes that were changed: filled, or erased as salt
   std::uint64_t movedToMiddle = 0;   ///< points moved to the middle of their edge against a self-intersection
 };
 

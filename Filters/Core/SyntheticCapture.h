@@ -65,10 +65,10 @@ std::vector<Projection> syntheticCameras(const Mesh& truth, int views, int width
 
 /**
  * The capture of `truth`, which may be of any size and at any place. The same bytes for any number of
- * threads. Cost: about 0.1 s a view of a Mpx and 300,000 triangles, 0.2 s more with contour noise; memory:
- * 5 bytes a pixel and view. Throws InvalidInput, naming the option and its value, where one is out of range
- * or not a number, or where the mesh has no triangles, names points that it does not have, or is not finite
- * or a single point; Cancelled.
+ * threads. Cost, in orders of magnitude: 0.1 s a view for each Mpx, as much again with contour noise, and 0.01 s
+ * for each 100,000 triangles; memory: 5 bytes a pixel and view. Throws InvalidInput, naming the option and its
+ * value, where one is out of range or not a number, or where the mesh has no triangles, names points that it
+ * does not have, or is not finite or a single point; Cancelled.
  */
 SyntheticCapture synthesizeCapture(const Mesh& truth, const SyntheticCaptureOptions& options,
                                    Execution& execution);

@@ -25,7 +25,7 @@
  * | | | field `Deficit` | double, 1 | the silhouettes' mean deficit before any correction, in leaf octants; 0 without views |
  * | | | field `Shift` | double, 1 | how far the silhouettes' contours are shifted against the surface's before any correction, mean over the views, in leaf octants; 0 without views |
  * | | | field `Alignment` | double, 1 | mean length of the views' shifts, in pixels; 0 where they were not shifted |
- * | | | field `RepairedPixels` | 64-bit unsigned, 1 | pixels filled into silhouettes |
+ * | | | field `RepairedPixels` | 64-bit unsigned, 1 | pixels of the silhouettes that were changed: filled, or erased as salt |
  * | | | field `MovedToMiddle` | 64-bit unsigned, 1 | points moved to the middle of their edge against a self-intersection |
  * | output 1 | vtkPolyData, triangles | cells `HullId` | int, 1 | the local hulls, each a closed convex part |
  *
@@ -142,8 +142,8 @@ public:
 
   ///@{
   /**
-   * Whether to fill, in silhouettes, speckles and what a single view cuts deep and wide out of the object.
-   * Default on. Only in Robust mode, with views.
+   * Whether to repair silhouettes: speckles, filled in the object and erased in the background, and what a single
+   * view cuts deep and wide out of the object, filled. Default on. Only in Robust mode, with views.
    */
   vtkSetMacro(RepairSilhouettes, bool);
   vtkGetMacro(RepairSilhouettes, bool);
@@ -230,8 +230,10 @@ public:
 
   ///@{
   /**
-   * RepairSilhouettes: the largest area of a speckle, background that the object encloses or object that
-   * background encloses; squared leaf octants, at least 0, default 0.5. Larger takes larger ones.
+   * RepairSilhouettes: the largest area of a speckle, a region of background that the object encloses; squared leaf
+   * octants, at least 0, default 0.5; a pixel is one in any case. Of object, regions of at most this area, a pixel in
+   * any case, and of 8 pixels at most are speckles where more than a pixel is between them and any other object. Larger
+   * takes larger ones.
    */
   vtkSetMacro(SpeckleArea, double);
   vtkGetMacro(SpeckleArea, double);
@@ -239,8 +241,9 @@ public:
 
   ///@{
   /**
-   * RepairSilhouettes: speckles are left alone where they are fewer than this share of the object's pixels; 0
-   * to 1, default 0.0001. Larger repairs less.
+   * RepairSilhouettes: all speckles are left alone where the pixels of those that the other views dispute are no more
+   * than this share of the object's; 0 to 1, default 0.0001. So are they where the other views dispute fewer than half.
+   * Larger repairs less.
    */
   vtkSetMacro(SpeckleShare, double);
   vtkGetMacro(SpeckleShare, double);
@@ -249,7 +252,8 @@ public:
   ///@{
   /**
    * RepairSilhouettes: how deep in one view's background a corner lies that this view alone rejects; leaf
-   * octants, at least 0, default 0.1. Larger finds fewer blobs.
+   * octants, at least 0, default 0.1. At least 85 over the square of the number of views is asked for, whatever is set:
+   * with fewer than 30 views more than the default. Larger finds fewer blobs.
    */
   vtkSetMacro(BlobDepth, double);
   vtkGetMacro(BlobDepth, double);
@@ -258,7 +262,8 @@ public:
   ///@{
   /**
    * RepairSilhouettes: the mean depth, along the view, of what it alone cuts away; share of the object's
-   * extent, 0 to 1, default 0.125. Larger finds fewer blobs.
+   * extent, 0 to 1, default 0.125. At least 3 over the number of views is asked for, whatever is set: with fewer than
+   * 24 views more than the default. Larger finds fewer blobs.
    */
   vtkSetMacro(BlobChord, double);
   vtkGetMacro(BlobChord, double);
@@ -366,8 +371,8 @@ public:
 
   ///@{
   /**
-   * ThinHulls: the least radius of a ball; leaf octants, above 0, default 0.12. Larger makes thinner parts
-   * fatter.
+   * ThinHulls: the least radius of a ball; leaf octants, above 0 to ThinLargestRadius, default 0.12. Larger makes
+   * thinner parts fatter.
    */
   vtkSetMacro(ThinSmallestRadius, double);
   vtkGetMacro(ThinSmallestRadius, double);
@@ -375,8 +380,8 @@ public:
 
   ///@{
   /**
-   * ThinHulls: the largest radius of a ball; leaf octants, at least ThinSmallestRadius, default 0.5. Larger
-   * lets balls fill more of their octant.
+   * ThinHulls: the largest radius of a ball; leaf octants, ThinSmallestRadius to 1, default 0.5. Larger lets balls
+   * fill more of their octant.
    */
   vtkSetMacro(ThinLargestRadius, double);
   vtkGetMacro(ThinLargestRadius, double);

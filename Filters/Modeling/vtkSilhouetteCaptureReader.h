@@ -11,6 +11,7 @@
  * | output 0 | vtkPartitionedDataSetCollection of vtkImageData, named by their files | point scalars | unsigned char, 1 to 4 | photographs or masks |
  * | | | field `Projection` | double, 12 | the view's 3 x 4 matrix, row by row |
  * | | | field `IsMask` | int, 1 | 1 where the image was found as a mask |
+ * | | | field `SignIsFree` | int, 1 | 1 where the camera file leaves the matrix's sign open, as a P list does |
  * | output 1 | vtkPolyData, lines | cells `View` | int, 1 | the cameras: centre, image corners; the view's number |
  *
  * | format | pixel family | sign of w | images |

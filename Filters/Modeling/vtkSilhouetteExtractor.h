@@ -14,6 +14,7 @@
  * | | | field `SignIsFree` (optional) | int, 1 | 1: the matrix may have the other sign |
  * | output 0 | vtkPartitionedDataSetCollection of vtkImageData | point scalars `Silhouette` | unsigned char, 1 | 255 object, 0 background |
  * | | | field `Projection` | double, 12 | as in the input, but for a free sign, as are the names |
+ * | | | fields `IsMask`, `SignIsFree` | int, 1 | as in the input, where it has them; `SignIsFree` stays 1 once the sign is settled: it tells that it was settled here, not by the camera file |
  *
  * Steps: a pixel is background where ANY criterion that is set says so; then InvertPolarity; then the
  * morphology, in the order in which it was added; then the largest region; then holes. Without a criterion
@@ -140,7 +141,8 @@ public:
   ///@{
   /**
    * The morphology, in the order in which it is carried out; default none. `operation` is OPENING, CLOSING,
-   * DILATE or ERODE, `radius` is in pixels, at least 0. Larger radii remove or close more.
+   * DILATE or ERODE, `radius` is in pixels, at least 0. Larger radii remove or close more. All radii together, those
+   * of opening and closing counted twice, are at most 1000 pixels; more is an error of Update().
    */
   void AddOperation(int operation, int radius);
   void ClearOperations();

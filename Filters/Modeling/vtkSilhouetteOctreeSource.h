@@ -15,14 +15,14 @@
  * | | | cells `Generation` | unsigned char, 1 | subdivisions of the root cube |
  * | | | cells `LatticeCode` | 64-bit unsigned, 1 | Morton code within the generation |
  * | | | field `Depth`, `TreeGeneration`, `NumberOfViews`, `BackgroundVotes`, `OutsidePolicy` | int, 1 | what the octree was made with |
- * | | | field `RootCube` | double, 4 | origin and edge of the root cube |
+ * | | | field `RootCube` | double, 1 | four values: origin and edge of the root cube |
  * | | | field `ViewsFingerprint`, `OctantsTested`, `ViewTests` | 64-bit unsigned, 1 | names the views; counts of the work |
  * | | | field `InsideOctants`, `IntersectionOctants` | 64-bit unsigned, 1 | inside octants of all generations, intersection octants of the last |
- * | | | field `CarvedByView` | double, one a view | share of the root cube that the view carved |
+ * | | | field `CarvedByView` | double, 1 | a value a view: share of the root cube that the view carved |
  * | | | field `Piece`, `NumberOfPieces` | int, 1 | the piece of the octree that this is; the counts and shares above are the piece's, and add up |
  * | | | field `Dilation` | int, 1 | pixels by which the silhouettes were dilated; 0 without AutomaticTolerance |
  * | | | field `UncoveredShare`, `StrictUncoveredShare` | double, 1 | with AutomaticTolerance: share of the silhouettes' pixels, mean over the views, that no octant covers, of this octree and of one with BackgroundVotes and without dilation |
- * | output 1 | vtkPartitionedDataSetCollection | as the input | | the views used, prepared: filters further down do no work on them twice; dilated ones where `Dilation` is above 0 |
+ * | output 1 | vtkPartitionedDataSetCollection | as the input, further field arrays too | | the views used, prepared: filters further down do no work on them twice; dilated ones where `Dilation` is above 0 |
  *
  * A matrix P maps a world point to a pixel, w (u, v, 1) = P (X, Y, Z, 1), with w > 0 in front of the camera,
  * u to the right, v down, the centre of the top-left pixel at (0, 0); the images are in VTK's own order,
@@ -34,7 +34,7 @@
  * for an octant is not asked again for its descendants.
  *
  * Cost: proportional to the pairs of octant and view at the silhouettes' borders, about four times as many
- * for each unit of Depth. Memory: about 16 bytes an octant while carving, 10 in the output, and 6 bytes a
+ * for each unit of Depth. Memory: about 16 bytes an octant while carving, 10 in the output, and 1.2 bytes a
  * pixel.
  *
  * Errors (message, empty outputs): no views; an image that is not a silhouette; a matrix that is missing, has
@@ -111,7 +111,8 @@ public:
   ///@{
   /**
    * If above 0: instead of Depth, the least depth whose octants' edge is at most this, in the unit of the
-   * capture. Default 0: Depth is used. Larger is coarser.
+   * capture. Default 0: Depth is used. Larger is coarser. Errors of Update(): negative, not finite, or so small that
+   * a depth above 16 is needed.
    */
   vtkSetMacro(LeafEdge, double);
   vtkGetMacro(LeafEdge, double);

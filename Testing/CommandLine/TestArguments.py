@@ -60,6 +60,11 @@ class Wrong(ProgramTest):
         self.wrong_reconstruct(["--tolerance", "--background"], "--tolerance", 1)
         self.wrong_reconstruct(["--threshold"], "--threshold", "nan")
         self.wrong_reconstruct(["--opening", "-1"], "--opening=-1")
+        # Together they reach 1000 pixels at most; opening and closing reach twice their radius.
+        self.wrong_reconstruct(["--opening", "radius 600", "1200", "1000"], "--opening", 600)
+        self.wrong_reconstruct(["--dilate", "radius 1", "1001", "1000"], "--closing", 400, "--erode", 200, "--dilate", 1)
+        self.bad(program.FILES, ["nowhere"], "reconstruct", self.folder / "nowhere", "-o", self.folder / "x.ply",
+                 "--opening", 500)
         self.wrong_reconstruct(["--fill-holes"], "--fill-holes", 1.5)
 
     def test_outputs(self):

@@ -350,6 +350,30 @@ TEST(LocalHullSurface, ARepairAddsNoComponent)
   const LocalHullSurface surface = localHullSurface(imperfect, octree, &views, options, execution);
   EXPECT_GT(countSurvivorComponents(octree, execution), 0u);
   expectPromise(surface.mesh, octree, "a repair without survivors");
+
+/** Three boxes in a row, the gaps between them a good octant and two good ones. */
+TEST(LocalHullSurface, ALargerBridgeGapJoinsMoreAndNoneJoinsNothing)
+{
+  const double leaf = 1.0 / 16.0;
+  const Mesh mesh = joined(joined(boxMesh({ -0.8, -0.3, -0.3 }, { -3.2 * leaf, 0.3, 0.3 }),
+                             boxMesh({ -1.3 * leaf, -0.3, -0.3 }, { 4.4 * leaf, 0.3, 0.3 })),
+    boxMesh({ 7.3 * leaf, -0.3, -0.3 }, { 0.9, 0.3, 0.3 }));
+  const PreparedViews views = prepareViews(viewsOf(mesh, axisCameras(200.0, 500), 500));
+  const Octree octree = carveViews(views, unitCube(1.0), 5);
+  Execution execution;
+  ASSERT_EQ(countSurvivorComponents(octree, execution), 3u);
+  for (const PreparedViews* given : { static_cast<const PreparedViews*>(nullptr), &views })
+  {
+    for (const int gap : { 0, 1, 2, 3 })
+    {
+      LocalHullOptions options;
+      options.bridgeGap = gap;
+      const auto result = localHullSurface(Mesh(), octree, given, options, execution);
+      EXPECT_EQ(result.bridges, std::uint64_t(std::min(gap, 2))) << "gap " << gap;
+      EXPECT_EQ(assessMesh(result.mesh, execution).components, std::uint64_t(3 - std::min(gap, 2))) << "gap " << gap;
+      expectPromise(result.mesh, octree, "gap " + std::to_string(gap));
+    }
+  }
 }
 
 TEST(LocalHullSurface, ACleanCaptureHasNothingToGiveUp)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
-The examples and the commands of Documentation/pipelines.md, run as people run them, and judged: the meshes are
-those of the program, byte for byte, and sound; the pictures show something.
+The examples and the commands of Documentation/pipelines.md, README.md and Documentation/tutorial.md, run as people run
+them, and judged: the meshes are those of the program, byte for byte, and sound; the pictures show something.
 
 SILHOUETTE_PREFIX is the install tree, or the build tree; PYTHONPATH leads to its package. Examples/Cxx is built
 and the captures are made here, by the document's own commands.
@@ -128,6 +128,61 @@ class Readme(unittest.TestCase):
              env=environment)
         good("cmake", "--build", "readme", env=environment)
         self.assert_many_triangles(good("readme/readme"))
+
+
+class Tutorial(unittest.TestCase):
+    """The tutorial's commands, one after another in a folder of their own, smaller and coarser than they stand there."""
+
+    QUICK = (("--size 512x512", "--size 256x256"), ("--depth 8", "--depth 6"))
+
+    @classmethod
+    def setUpClass(cls):
+        cls.place = folder / "tutorial"
+        cls.place.mkdir()
+        cls.text = document.text("tutorial.md")
+        commands = "".join(block["code"] for block in document.blocks(cls.text) if block["language"] == "sh")
+        for stated, quick in cls.QUICK:
+            if commands.count(stated) != 1:
+                raise AssertionError(f"the tutorial's commands no longer say {stated} once")
+            commands = commands.replace(stated, quick)
+        cls.printed = good("bash", "-e", "-c", f"cd '{cls.place}'\n{commands}", env=environment)
+        cls.help = {command: good(PROGRAM, command, "--help") for command in ("reconstruct", "evaluate", "synthesize")}
+
+    def test_they_make_what_is_said(self):
+        for name in ("images", "masks", "projections.txt", "truth.ply"):
+            self.assertTrue((self.place / "jug" / name).exists(), name)
+        metrics = json.loads((self.place / "jug.json").read_text())
+        self.assertTrue(metrics["sound"])
+        self.assertEqual((metrics["components"], metrics["genus"], metrics["lost_surface"]), (1, 1, 0))
+        self.assertGreater(pixels_of(self.place / "jug.png").std(), 10)  # the preview, on a ground of its own
+        for words in ("closed, manifold, free of self-intersections", "view_000.png", "truth        mean"):
+            self.assertIn(words, self.printed)
+
+    def commands_with(self, option):
+        return [command for command, words in self.help.items() if re.search(rf"{option}(?![\w-])", words)]
+
+    def test_its_key_tells_the_background(self):
+        key, = re.findall(r"`(--key [^`]*)`", self.text)
+        good(PROGRAM, "reconstruct", self.place / "jug", "-o", self.place / "key.ply", "--depth", 5, "--quiet", *key.split())
+        self.assertGreater(evaluated(self.place / "key.ply", self.place / "jug")["mean_iou"], 0.98)
+
+    def test_the_options_exist(self):
+        named = re.findall(r"(?<![\w-])--[a-z][a-z-]*", self.text + document.text("formats.md"))
+        self.assertGreater(len(set(named)), 40)
+        for option in set(named) - {"--help"}:
+            self.assertTrue(self.commands_with(option), option)
+
+    def test_their_values_are_understood(self):
+        made = self.place / "noisy"
+        for option, value in re.findall(r"`(--[a-z-]+) ([^` ]+)`", self.text):
+            if re.fullmatch("[A-Z][A-Z0-9,]*", value):
+                continue  # LENGTH, say, stands for a value
+            with self.subTest(f"{option} {value}"):
+                if "reconstruct" in self.commands_with(option):
+                    done = run(PROGRAM, "reconstruct", "nowhere", "-o", "none.ply", option, value)
+                    self.assertEqual(done.returncode, 3, done.stderr)  # the capture is missed, no argument is wrong
+                else:
+                    good(PROGRAM, "synthesize", made, "--size", "32x32", "--views", 4, "--force", "--quiet", option, value)
 
 
 class PictureJudge(unittest.TestCase):

@@ -206,13 +206,37 @@ class TestErrors(unittest.TestCase):
         self.check(ValueError, "5 names", names=list("abcde"))
         self.check(ValueError, "carving is 'lax', it is one of tolerant, strict", carving="lax")
         self.check(ValueError, "mode is 'fast', it is one of robust, thesis", mode="fast")
-        self.check(RuntimeError, "island share 2", drop_islands=2.0)
+        self.check(ValueError, "masks are 0", masks=[], projections=np.empty((0, 3, 4)))
+        self.check(ValueError, "bounds are", bounds=(0, np.inf, 0, 1, 0, 1))
         for depth in (5.5, "5", None):
             self.check(TypeError, "integer", depth=depth)
+        for depth in (-1, 0, 17, 40):
+            self.check(ValueError, f"depth is {depth}, it is 1 to 16", depth=depth)
+        for share in (0, -0.5, 1.5, np.nan):
+            self.check(ValueError, f"vote_share is {share}, it is above 0", vote_share=share)
+        self.check(TypeError, "vote_share is 'all', it is a number", vote_share="all")
+
+    def test_options_are_looked_at_for_any_surface(self):
+        for surface in ("local-hull", "voting", "marching-cubes"):
+            with self.subTest(surface):
+                self.check(ValueError, "mode is 'nonsense', it is one of", surface=surface, mode="nonsense")
+                self.check(ValueError, "edges is 'blunt', it is one of", surface=surface, edges="blunt")
+                for share in (-1, 2, np.nan):
+                    self.check(ValueError, f"drop_islands is {share}, it is 0 to 1", surface=surface, drop_islands=share)
+                self.check(TypeError, "drop_islands is None, it is a number", surface=surface, drop_islands=None)
+                for name in ("repair", "alignment", "correction", "thin_hulls", "handles", "tunnels"):
+                    self.check(ValueError, f"{name} is 'no', it is True or False", surface=surface, **{name: "no"})
+
+    def test_options_of_the_octree(self):
+        for wrong, words in (({"depth": 17}, "depth is 17"), ({"vote_share": 0}, "vote_share is 0"),
+                             ({"outside": "nowhere"}, "outside is 'nowhere'"), ({"bounds": (0, 1)}, "bounds are")):
+            with self.assertRaisesRegex(ValueError, words):
+                octree(self.masks, self.projections, **wrong)
 
     def test_errors_of_the_filters(self):
-        self.check(RuntimeError, "(?i)depth", depth=40)
-        self.check(RuntimeError, "(?i)view", masks=[], projections=np.empty((0, 3, 4)))
+        flat = self.projections.copy()
+        flat[1, 2] = flat[1, 1]
+        self.check(RuntimeError, "rank 2", projections=flat)
         empty = [np.zeros(SIZE, bool)] + self.masks[1:]
         self.check(RuntimeError, "left.png", masks=empty, names=["left.png"] + list("bcdef"),
                    bounds=(-1, 1, -1, 1, -1, 1))

@@ -2,6 +2,7 @@
 #include "CaptureOptions.h"
 
 #include "Arguments.h"
+#include "ExtractionOptions.h"
 
 #include "vtkSilhouetteCaptureReader.h"
 #include "vtkSilhouetteExtractor.h"
@@ -13,7 +14,6 @@ namespace silhouette::program
 namespace
 {
 
-constexpr int LargestRadius = 1000;
 const char* const CriteriaGroup = "Silhouettes: a pixel is background where ANY of these says so";
 const char* const CleanGroup = "Silhouettes: then, in this order";
 
@@ -68,14 +68,15 @@ void CaptureOptions::addClean(CLI::App& command)
 {
   command.add_flag("--invert", this->Invert, "Swap object and background")->group(CleanGroup);
   const char* const meanings[4] = { "Remove specks: erode, then dilate, by a disc of R pixels (1 is 3 x 3). These four "
-                                    "may be repeated, and run in the order of the command line",
+                                    "may be repeated, and run in the order of the command line; their radii together, "
+                                    "--opening's and --closing's twice, are at most 1000",
     "Close gaps: dilate, then erode", "Grow the object by R pixels", "Shrink the object by R pixels" };
   for (int i = 0; i < 4; ++i)
   {
     this->Operations[i] = command.add_option(OperationNames[i], this->Radii[i], meanings[i])
                             ->type_name("R")
                             ->allow_extra_args(false)
-                            ->check(inRange(0, LargestRadius, true))
+                            ->check(inRange(0, LargestMorphologyReach, true))
                             ->group(CleanGroup);
   }
   command.add_flag("--largest-region", this->LargestRegion, "Keep the largest region of object only")
@@ -121,6 +122,23 @@ void CaptureOptions::finish()
     {
       const auto operation = static_cast<std::size_t>(found - this->Operations.begin());
       this->Morphology.emplace_back(static_cast<int>(operation), this->Radii[operation][used[operation]++]);
+    }
+  }
+  this->checkReach();
+}
+
+void CaptureOptions::checkReach() const
+{
+  int reach = 0;
+  for (const auto& [operation, radius] : this->Morphology)
+  {
+    const bool twice = operation == vtkSilhouetteExtractor::OPENING || operation == vtkSilhouetteExtractor::CLOSING;
+    reach += twice ? 2 * radius : radius;
+    if (reach > LargestMorphologyReach)
+    {
+      throw CLI::ValidationError(OperationNames[operation], "with radius " + std::to_string(radius) +
+          " the morphology reaches " + std::to_string(reach) + " pixels, opening and closing counted twice; at most " +
+          std::to_string(LargestMorphologyReach) + " are allowed");
     }
   }
 }

@@ -39,6 +39,7 @@ public:
 private:
   void addCriteria(CLI::App& command);
   void addClean(CLI::App& command);
+  void checkReach() const;
   bool hasCriteria() const;
 
   CLI::App* Command = nullptr;

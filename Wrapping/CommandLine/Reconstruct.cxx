@@ -157,7 +157,8 @@ void Reconstruct::addSurface()
     ->group(group);
   this->App
     ->add_option("--vote-share", this->Options.voteShare, "Share of the views that must call a point inside, above 0 "
-                                                          "to 1 (default: what --background-votes leaves, else 1). "
+                                                          "to 1 (default: what --background-votes leaves, else "
+                                                          "what --carving settles). "
                                                           "Smaller forgives more wrong silhouettes")
     ->type_name("X")
     ->check(aboveZero(1.0))
@@ -165,7 +166,7 @@ void Reconstruct::addSurface()
   this->App
     ->add_option("--background-votes", this->Options.backgroundVotes, "Views that may call an octant background "
                                                                       "without its being carved (default: what "
-                                                                      "--vote-share leaves, else 0)")
+                                                                      "--vote-share leaves, else what --carving settles)")
     ->type_name("K")
     ->check(inRange(0, 65534, true))
     ->group(group);

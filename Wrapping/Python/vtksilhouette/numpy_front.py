@@ -33,6 +33,8 @@ from .vtkSilhouetteFiltersModeling import (
 __all__ = ["Octree", "octree", "reconstruct"]
 
 SURFACES = ("local-hull", "voting", "marching-cubes")
+CARVINGS = ("tolerant", "strict")
+DEPTHS = (1, 16)
 _OUTSIDE = {
     "border": vtkSilhouetteOctreeSource.BORDER,
     "unknown": vtkSilhouetteOctreeSource.UNKNOWN,
@@ -47,7 +49,8 @@ _EDGES = {"exact": vtkVotingMarchingCubes.EXACT, "middle": vtkVotingMarchingCube
 class Octree:
     """Octants that the silhouettes did not carve away.
 
-    states       (n,) uint8: 1 intersection (some silhouette's border passes), 2 inside (object in all views)
+    states       (n,) uint8: 2 inside: at most k views have any background in it, k being the background votes that
+                 vote_share leaves, 0 of all views; 1 intersection: more views have, but at most k see nothing else
     generations  (n,) uint8: subdivisions of the root cube; an octant's edge is edge / 2 ** generation
     coordinates  (n, 3) int64: the octant's place among the 2 ** generation octants along each axis
     origin       (3,) float64: the root cube's corner of least coordinates
@@ -117,21 +120,26 @@ def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", 
     Returns (points, triangles): (n, 3) float64 and (k, 3) int64 indices into points, counter-clockwise seen
     from outside.
 
-    Raises TypeError or ValueError where an argument does not fit, and RuntimeError with the filter's message
-    where the views give no object: nothing survives the carving (the message names the view), or they do not
-    bound it. What is doubtful but not fatal comes as a RuntimeWarning.
+    Raises TypeError where an argument is of another type, ValueError with its name and value where it is out of
+    range, before any work and for any surface; and RuntimeError with the filter's message where the views give no
+    object: nothing survives the carving (the message names the view), they do not bound it, or a projection is of
+    rank below 3. What is doubtful but not fatal comes as a RuntimeWarning.
 
         >>> points, triangles = reconstruct(masks, projections, depth=7)
         >>> trimesh.Trimesh(points, triangles).export("object.ply")
     """
-    if surface not in SURFACES:
-        raise ValueError(f"surface is {surface!r}, it is one of {', '.join(SURFACES)}")
+    _check_choice("surface", surface, SURFACES)
+    _check_choice("carving", carving, CARVINGS)
     if surface == "marching-cubes" and vote_share not in (None, 1.0):
         raise ValueError(f"surface 'marching-cubes' asks all views, vote_share {vote_share} needs 'voting' "
                          "or 'local-hull'")
-    if carving not in ("tolerant", "strict"):
-        raise ValueError(f"carving is {carving!r}, it is one of tolerant, strict")
-    share = 1.0 if vote_share is None else float(vote_share)
+    share = 1.0 if vote_share is None else _share(vote_share)
+    cubes = vtkVotingMarchingCubes()
+    cubes.SetEdgePlacement(_choice("edges", edges, _EDGES))
+    hulls = _local_hulls(mode, drop_islands, RepairSilhouettes=("repair", repair),
+                         AlignViews=("alignment", alignment), CorrectField=("correction", correction),
+                         ThinHulls=("thin_hulls", thin_hulls), JoinHandles=("handles", handles),
+                         FillTunnels=("tunnels", tunnels))
     source = _octree_source(masks, projections, depth, bounds, share, outside, names)
     if vote_share is None and carving == "tolerant" and surface != "marching-cubes":
         source.AutomaticToleranceOn()
@@ -140,22 +148,11 @@ def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", 
         views, votes = (fields.GetArray(name).GetTuple1(0) for name in ("NumberOfViews", "BackgroundVotes"))
         share = (views - votes) / views
 
-    cubes = vtkVotingMarchingCubes()
     cubes.SetInputConnection(0, source.GetOutputPort(0))
     cubes.SetInputConnection(1, source.GetOutputPort(1))
     cubes.SetShare(share)
-    cubes.SetEdgePlacement(_choice("edges", edges, _EDGES))
     filters = [source, cubes]
     if surface == "local-hull":
-        hulls = vtkLocalHullSurfacer()
-        hulls.SetMode(_choice("mode", mode, _MODES))
-        hulls.SetIslandShare(float(drop_islands))
-        hulls.SetRepairSilhouettes(bool(repair))
-        hulls.SetAlignViews(bool(alignment))
-        hulls.SetCorrectField(bool(correction))
-        hulls.SetThinHulls(bool(thin_hulls))
-        hulls.SetJoinHandles(bool(handles))
-        hulls.SetFillTunnels(bool(tunnels))
         hulls.SetInputConnection(0, cubes.GetOutputPort(0))
         hulls.SetInputConnection(1, source.GetOutputPort(0))
         hulls.SetInputConnection(2, source.GetOutputPort(1))
@@ -178,7 +175,7 @@ def octree(masks, projections, depth=8, bounds=None, vote_share=1.0, outside="bo
         >>> tree = octree(masks, projections, depth=6)
         >>> solid = tree.centres()[tree.states == 2]
     """
-    source = _octree_source(masks, projections, depth, bounds, vote_share, outside, names)
+    source = _octree_source(masks, projections, depth, bounds, _share(vote_share), outside, names)
     _update([source])
     grid = source.GetOutput()
     cells = grid.GetCellData()
@@ -196,26 +193,59 @@ def octree(masks, projections, depth=8, bounds=None, vote_share=1.0, outside="bo
 
 def _octree_source(masks, projections, depth, bounds, vote_share, outside, names):
     """The source with its views and parameters, not yet run."""
+    source = vtkSilhouetteOctreeSource()
+    source.SetDepth(_depth(depth))
+    source.SetOutsidePolicy(_choice("outside", outside, _OUTSIDE))
+    if bounds is not None:
+        source.AutomaticBoundsOff()
+        source.SetBounds(*_box(bounds))
     images = [_image(mask, view) for view, mask in enumerate(masks)]
+    if not images:
+        raise ValueError("masks are 0, at least 1 view is needed")
     matrices = _matrices(projections, len(images))
     if names is not None and len(names) != len(images):
         raise ValueError(f"{len(images)} masks, but {len(names)} names")
-    if not 0.0 < vote_share <= 1.0:
-        raise ValueError(f"vote_share is {vote_share}, it is above 0 and at most 1")
-
-    source = vtkSilhouetteOctreeSource()
     for view, (image, matrix) in enumerate(zip(images, matrices)):
         source.AddView(image, matrix.ravel().tolist(), str(names[view]) if names is not None else None)
-    source.SetDepth(operator.index(depth))
     source.SetBackgroundVotes(len(images) - max(1, math.ceil(vote_share * len(images) - 1e-9)))
-    source.SetOutsidePolicy(_choice("outside", outside, _OUTSIDE))
-    if bounds is not None:
-        box = np.asarray(bounds, np.float64).ravel()
-        if box.shape != (6,) or not np.all(box[0::2] < box[1::2]):
-            raise ValueError(f"bounds are {bounds!r}, they are xmin < xmax, ymin < ymax, zmin < zmax")
-        source.AutomaticBoundsOff()
-        source.SetBounds(*box.tolist())
     return source
+
+
+def _local_hulls(mode, drop_islands, **switches):
+    """The surfacer with its parameters; a switch is the setter's name with the argument's name and value."""
+    hulls = vtkLocalHullSurfacer()
+    hulls.SetMode(_choice("mode", mode, _MODES))
+    share = _number("drop_islands", drop_islands)
+    if not 0.0 <= share <= 1.0:
+        raise ValueError(f"drop_islands is {drop_islands!r}, it is 0 to 1")
+    hulls.SetIslandShare(share)
+    for setter, (name, value) in switches.items():
+        if not isinstance(value, (bool, np.bool_, int)) or value not in (0, 1):
+            raise ValueError(f"{name} is {value!r}, it is True or False")
+        getattr(hulls, "Set" + setter)(bool(value))
+    return hulls
+
+
+def _depth(depth):
+    number = operator.index(depth)
+    if not DEPTHS[0] <= number <= DEPTHS[1]:
+        raise ValueError(f"depth is {number}, it is {DEPTHS[0]} to {DEPTHS[1]}")
+    return number
+
+
+def _share(vote_share):
+    share = _number("vote_share", vote_share)
+    if not 0.0 < share <= 1.0:
+        raise ValueError(f"vote_share is {vote_share!r}, it is above 0 and at most 1")
+    return share
+
+
+def _box(bounds):
+    """The six bounds, as a list."""
+    box = np.asarray(bounds, np.float64).ravel()
+    if box.shape != (6,) or not np.all(np.isfinite(box)) or not np.all(box[0::2] < box[1::2]):
+        raise ValueError(f"bounds are {bounds!r}, they are xmin < xmax, ymin < ymax, zmin < zmax")
+    return box.tolist()
 
 
 def _image(mask, view):
@@ -253,9 +283,20 @@ def _matrices(projections, count):
     return matrices
 
 
-def _choice(name, value, choices):
-    if value not in choices:
+def _number(name, value):
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is {value!r}, it is a number") from None
+
+
+def _check_choice(name, value, choices):
+    if not isinstance(value, str) or value not in choices:
         raise ValueError(f"{name} is {value!r}, it is one of {', '.join(choices)}")
+
+
+def _choice(name, value, choices):
+    _check_choice(name, value, choices)
     return choices[value]
 
 
