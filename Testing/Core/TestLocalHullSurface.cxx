@@ -350,6 +350,7 @@ TEST(LocalHullSurface, ARepairAddsNoComponent)
   const LocalHullSurface surface = localHullSurface(imperfect, octree, &views, options, execution);
   EXPECT_GT(countSurvivorComponents(octree, execution), 0u);
   expectPromise(surface.mesh, octree, "a repair without survivors");
+}
 
 /** Three boxes in a row, the gaps between them a good octant and two good ones. */
 TEST(LocalHullSurface, ALargerBridgeGapJoinsMoreAndNoneJoinsNothing)
