@@ -7,11 +7,11 @@
 #include "PointClusters.h"
 #include "SimplePoint.h"
 #include "UnionFind.h"
+#include "WallOpening.h"
 #include "WideOutside.h"
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -23,6 +23,7 @@ namespace
 {
 
 constexpr int GreatestWidth = 8;
+constexpr std::size_t LooksApart = 4096; ///< points after which growing asks whether it is cancelled
 
 enum Part : std::uint8_t
 {
@@ -139,6 +140,15 @@ public:
     return int(std::unique(roots.begin(), roots.end()) - roots.begin());
   }
 
+  /** Only where it is the calling thread that grows. */
+  void stopIfCancelled() const
+  {
+    if (this->Run.cancelled())
+    {
+      throw Cancelled();
+    }
+  }
+
   /** A point has been taken. */
   void take(std::size_t n)
   {
@@ -218,6 +228,10 @@ public:
   {
     while (!this->Points.empty())
     {
+      if (sets && ++this->Looked % LooksApart == 0)
+      {
+        sets->stopIfCancelled();
+      }
       const std::size_t n = std::get<2>(this->Points.top());
       this->Points.pop();
       this->Waiting[n] = 0;
@@ -239,9 +253,29 @@ public:
     return true;
   }
 
+  /** Take a narrow point, whatever it joins, and grow from there; returns the Morton codes of all that are taken. */
+  std::vector<std::uint64_t> open(std::size_t n, WideSets& sets)
+  {
+    this->Opened.clear();
+    this->take(n, &sets);
+    this->run(&sets);
+    return this->Opened;
+  }
+
+  /** Forget whoever waits. */
+  void clear()
+  {
+    for (; !this->Points.empty(); this->Points.pop())
+    {
+      this->Waiting[std::get<2>(this->Points.top())] = 0;
+    }
+  }
+
+private:
   void take(std::size_t n, WideSets* sets)
   {
     this->Outside.take(n);
+    this->Opened.push_back(this->Outside.code(n));
     const CodesAround codes(fromMorton(this->Outside.code(n))); // what is near the border beneath is wide
     for (int a = 0; a < 27; ++a)
     {
@@ -257,16 +291,6 @@ public:
     }
   }
 
-  /** Forget whoever waits. */
-  void clear()
-  {
-    for (; !this->Points.empty(); this->Points.pop())
-    {
-      this->Waiting[std::get<2>(this->Points.top())] = 0;
-    }
-  }
-
-private:
   /** Parts of the wide outside that a point touches; 0 where these are connected nearby. */
   int partsAround(const LatticePoint& p) const
   {
@@ -322,6 +346,8 @@ private:
   const std::vector<float>& Supports;
   std::vector<std::uint8_t>& Waiting;
   std::priority_queue<std::tuple<float, std::ptrdiff_t, std::size_t>> Points;
+  std::size_t Looked = 0;            ///< points that have been looked at
+  std::vector<std::uint64_t> Opened; ///< taken since the last opening began
 };
 
 class Growth
@@ -378,49 +404,23 @@ public:
       }
     }
     this->All.run(&this->Sets);
+  }
+
+  /** What is left of the narrow points, as walls none of which is too long. */
+  std::vector<std::vector<std::uint64_t>> walls(double longest)
+  {
+    std::vector<std::uint64_t> points;
+    std::vector<float> supports;
     for (std::size_t n = 0; n < this->Outside.size(); ++n)
     {
       if (this->Outside[n] == Narrow)
       {
-        this->Remaining.push_back(n);
+        points.push_back(this->Outside.code(n));
+        supports.push_back(this->Supports[n]);
       }
     }
-  }
-
-  /** Groups of remaining points, 26-neighbours being together, each ascending. */
-  std::vector<std::vector<std::size_t>> walls()
-  {
-    UnionFind sets(this->Remaining.size());
-    for (std::size_t r = 0; r < this->Remaining.size(); ++r)
-    {
-      const LatticePoint p = fromMorton(this->Outside.code(this->Remaining[r]));
-      for (int n = 0; n < 27; ++n)
-      {
-        const std::ptrdiff_t other = this->Near.find(neighbourOf(p, n));
-        const auto at = std::lower_bound(this->Remaining.begin(), this->Remaining.end(), std::size_t(std::max<std::ptrdiff_t>(other, 0)));
-        if (other >= 0 && at != this->Remaining.end() && *at == std::size_t(other))
-        {
-          sets.unite(std::uint32_t(r), std::uint32_t(at - this->Remaining.begin()));
-        }
-      }
-    }
-    std::vector<std::vector<std::size_t>> groups(this->Remaining.size());
-    for (std::size_t r = 0; r < this->Remaining.size(); ++r)
-    {
-      groups[sets.find(std::uint32_t(r))].push_back(this->Remaining[r]);
-    }
-    groups.erase(std::remove_if(groups.begin(), groups.end(), [](const auto& g) { return g.empty(); }), groups.end());
-    return groups;
-  }
-
-  /** Open a wall where least speaks for it, and go on. */
-  void open(const std::vector<std::size_t>& wall)
-  {
-    const auto weaker = [&](std::size_t a, std::size_t b) { return this->Supports[a] < this->Supports[b]; };
-    this->All.take(*std::min_element(wall.begin(), wall.end(), weaker), &this->Sets);
-    this->All.run(&this->Sets);
-    const auto taken = [&](std::size_t n) { return this->Outside[n] != Narrow; };
-    this->Remaining.erase(std::remove_if(this->Remaining.begin(), this->Remaining.end(), taken), this->Remaining.end());
+    const auto open = [&](std::uint64_t point) { return this->All.open(std::size_t(this->Near.find(point)), this->Sets); };
+    return openLongWalls(points, supports, longest, open, this->Run).walls;
   }
 
 private:
@@ -429,7 +429,6 @@ private:
   PartCursor Near;
   int Width;
   Execution& Run;
-  std::vector<std::size_t> Remaining; ///< narrow points that have not been taken; ascending
   std::vector<float> Supports;        ///< how much speaks for each point's being inside
   std::vector<std::uint8_t> Waiting;  ///< 1 for the points that a front holds
   Front All;
@@ -437,41 +436,23 @@ private:
 };
 
 /** By how much the solid's Euler number rises where a wall is added to it: by 1 for each tunnel that it closes. */
-int eulerRise(const std::vector<std::size_t>& wall, const Parts& parts)
+int eulerRise(const std::vector<std::uint64_t>& wall, const Parts& parts)
 {
   std::vector<std::uint64_t> added;
   const PartCursor near(parts);
   int rise = 0;
-  for (const std::size_t n : wall)
+  for (const std::uint64_t code : wall)
   {
     Neighbourhood around;
     for (int a = 0; a < 27; ++a)
     {
-      const LatticePoint p = neighbourOf(fromMorton(parts.code(n)), a);
+      const LatticePoint p = neighbourOf(fromMorton(code), a);
       around[a] = near.at(p) == Solid || std::binary_search(added.begin(), added.end(), mortonCode(p));
     }
     rise += eulerChange(around);
-    added.insert(std::lower_bound(added.begin(), added.end(), parts.code(n)), parts.code(n));
+    added.push_back(code);
   }
   return rise;
-}
-
-/**
- * Octants along the outline of a wall: that of a rectangle with the two longest sides of its box, and the solid
- * around it.
- */
-double outline(const std::vector<std::size_t>& wall, const Parts& parts)
-{
-  LatticePoint low = fromMorton(parts.code(wall.front())), high = low;
-  for (const std::size_t n : wall)
-  {
-    const LatticePoint p = fromMorton(parts.code(n));
-    low = { std::min(low.i, p.i), std::min(low.j, p.j), std::min(low.k, p.k) };
-    high = { std::max(high.i, p.i), std::max(high.j, p.j), std::max(high.k, p.k) };
-  }
-  std::array<int, 3> sides = { high.i - low.i, high.j - low.j, high.k - low.k };
-  std::sort(sides.begin(), sides.end());
-  return 2.0 * (sides[1] + sides[2]) + 8.0;
 }
 
 } // namespace
@@ -485,32 +466,19 @@ std::vector<std::uint64_t> tunnelWalls(const LatticeLabels& labels, const Tunnel
   }
   Phase looking(execution, 0.0, 0.8);
   Parts parts(labels, options.width, looking);
-  Growth growth(labels, parts, options.width, execution);
+  Phase opening(execution, 0.8, 1.0);
+  Growth growth(labels, parts, options.width, opening);
   growth.run();
-  const double longest = options.loop * labels.octree().lattice.cells();
   std::vector<std::uint64_t> points;
-  for (bool settled = false; !settled;)
+  for (const auto& wall : growth.walls(options.loop * labels.octree().lattice.cells()))
   {
-    execution.checkpoint(0.9);
-    settled = true;
-    points.clear();
-    for (const auto& wall : growth.walls())
+    // In a thicket of debris what is left may be no wall.
+    if (eulerRise(wall, parts) > 0)
     {
-      if (outline(wall, parts) > longest)
-      {
-        growth.open(wall);
-        settled = false;
-      }
-      // In a thicket of debris what is left may be no wall.
-      if (eulerRise(wall, parts) > 0)
-      {
-        std::transform(
-          wall.begin(), wall.end(), std::back_inserter(points), [&](std::size_t n) { return parts.code(n); });
-      }
+      points.insert(points.end(), wall.begin(), wall.end());
     }
   }
   std::sort(points.begin(), points.end());
-  execution.checkpoint(1.0);
   return points;
 }
 

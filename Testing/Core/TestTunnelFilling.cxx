@@ -36,7 +36,28 @@ std::int64_t genusAfter(LabelledSolid& solid, const TunnelFillingOptions& option
   return surface.genus.value_or(-1);
 }
 
-/** tunnelWalls() where no loop is too long: one narrow point after another, and what is connected flooded anew for each. */
+LabelledSolid randomBalls(int depth, int count, int seed)
+{
+  Random random(seed);
+  const double side = 1 << depth;
+  std::vector<std::array<double, 4>> balls;
+  for (int n = 0; n < count; ++n)
+  {
+    balls.push_back({ random.uniform(4.0, side - 4.0), random.uniform(4.0, side - 4.0), random.uniform(4.0, side - 4.0), random.uniform(1.5, 3.5) });
+  }
+  return LabelledSolid(depth,
+    [&](const LatticePoint& p)
+    {
+      double most = -9.0;
+      for (const auto& [i, j, k, radius] : balls)
+      {
+        most = std::max(most, radius - std::hypot(p.i - i, p.j - j, p.k - k));
+      }
+      return most;
+    });
+}
+
+/** tunnelWalls(): one narrow point after another, what is connected flooded anew for each, and all that is left grouped anew for each wall opened. */
 class OneByOne
 {
 public:
@@ -60,7 +81,68 @@ public:
     }
   }
 
-  std::vector<std::uint64_t> walls()
+  /** `longest`: octants of a wall's outline. */
+  std::vector<std::uint64_t> walls(double longest)
+  {
+    this->grow();
+    for (bool settled = false; !settled;)
+    {
+      settled = true;
+      for (const auto& wall : this->groups())
+      {
+        if (outline(wall) > longest)
+        {
+          settled = false;
+          const auto weaker = [&](std::uint64_t a, std::uint64_t b) { return this->supportOf(a) < this->supportOf(b); };
+          this->take(*std::min_element(wall.begin(), wall.end(), weaker));
+          this->grow();
+          ++this->openings;
+        }
+      }
+    }
+    std::vector<std::uint64_t> walls;
+    for (const auto& wall : this->groups())
+    {
+      if (this->eulerRise(wall) > 0)
+      {
+        walls.insert(walls.end(), wall.begin(), wall.end());
+      }
+    }
+    std::sort(walls.begin(), walls.end());
+    return walls;
+  }
+
+  std::size_t openings = 0;
+  std::size_t floods = 0;
+
+private:
+  std::size_t place(const LatticePoint& p) const { return std::size_t((p.i + 1) + this->Side * ((p.j + 1) + this->Side * (p.k + 1))); }
+
+  float supportOf(std::uint64_t code) const
+  {
+    const std::ptrdiff_t corner = this->Solid.labels->shell().find(code);
+    return corner >= 0 ? this->Solid.labels->support()[std::size_t(corner)] : -1e30f;
+  }
+
+  void push(std::uint64_t code)
+  {
+    if (this->Narrow.count(code) != 0)
+    {
+      this->Front.insert({ this->supportOf(code), code });
+    }
+  }
+
+  void take(std::uint64_t code)
+  {
+    this->Narrow.erase(code);
+    this->IsWide[this->place(fromMorton(code))] = true;
+    for (int n = 0; n < 27; ++n)
+    {
+      this->push(mortonCode(neighbourOf(fromMorton(code), n)));
+    }
+  }
+
+  void grow()
   {
     while (!this->Front.empty())
     {
@@ -68,14 +150,14 @@ public:
       this->Front.erase(this->Front.begin());
       if (this->Narrow.count(code) != 0 && this->mayTake(fromMorton(code)))
       {
-        this->Narrow.erase(code);
-        this->IsWide[this->place(fromMorton(code))] = true;
-        for (int n = 0; n < 27; ++n)
-        {
-          this->push(mortonCode(neighbourOf(fromMorton(code), n)));
-        }
+        this->take(code);
       }
     }
+  }
+
+  /** What is left, neighbours at corners being together; each ascending, in the order of their first points. */
+  std::vector<std::vector<std::uint64_t>> groups() const
+  {
     const std::vector<std::uint64_t> left(this->Narrow.begin(), this->Narrow.end());
     UnionFind together(left.size());
     for (std::uint32_t a = 0; a < left.size(); ++a)
@@ -94,30 +176,28 @@ public:
     {
       groups[together.find(n)].push_back(left[n]);
     }
-    std::vector<std::uint64_t> walls;
-    for (const auto& [first, wall] : groups)
-    {
-      if (this->eulerRise(wall) > 0)
-      {
-        walls.insert(walls.end(), wall.begin(), wall.end());
-      }
-    }
-    std::sort(walls.begin(), walls.end());
+    std::vector<std::vector<std::uint64_t>> walls;
+    std::transform(groups.begin(), groups.end(), std::back_inserter(walls), [](const auto& group) { return group.second; });
     return walls;
   }
 
-  std::size_t floods = 0;
-
-private:
-  std::size_t place(const LatticePoint& p) const { return std::size_t((p.i + 1) + this->Side * ((p.j + 1) + this->Side * (p.k + 1))); }
-
-  void push(std::uint64_t code)
+  /** Twice the two longest sides of the box around a wall, and the eight points around an edge of one point. */
+  static double outline(const std::vector<std::uint64_t>& wall)
   {
-    if (this->Narrow.count(code) != 0)
+    std::array<std::vector<int>, 3> coordinates;
+    for (const std::uint64_t code : wall)
     {
-      const std::ptrdiff_t corner = this->Solid.labels->shell().find(code);
-      this->Front.insert({ corner >= 0 ? this->Solid.labels->support()[std::size_t(corner)] : -1e30f, code });
+      const LatticePoint p = fromMorton(code);
+      coordinates[0].push_back(p.i);
+      coordinates[1].push_back(p.j);
+      coordinates[2].push_back(p.k);
     }
+    std::vector<int> sides;
+    for (const auto& along : coordinates)
+    {
+      sides.push_back(*std::max_element(along.begin(), along.end()) - *std::min_element(along.begin(), along.end()));
+    }
+    return 2.0 * (sides[0] + sides[1] + sides[2] - *std::min_element(sides.begin(), sides.end())) + 8.0;
   }
 
   bool mayTake(const LatticePoint& p)
@@ -190,32 +270,38 @@ TEST(TunnelFilling, IsThatOfOnePointAfterAnother)
   std::size_t filled = 0, floods = 0;
   for (int trial = 0; trial < 16; ++trial)
   {
-    Random random(trial);
-    std::vector<std::array<double, 4>> balls;
-    for (int n = 0; n < 24 + 4 * trial; ++n)
-    {
-      balls.push_back({ random.uniform(4.0, 28.0), random.uniform(4.0, 28.0), random.uniform(4.0, 28.0), random.uniform(1.5, 3.5) });
-    }
-    LabelledSolid solid(5,
-      [&](const LatticePoint& p)
-      {
-        double most = -9.0;
-        for (const auto& [i, j, k, radius] : balls)
-        {
-          most = std::max(most, radius - std::hypot(p.i - i, p.j - j, p.k - k));
-        }
-        return most;
-      });
+    LabelledSolid solid = randomBalls(5, 24 + 4 * trial, trial);
     const int width = 1 + trial % 4;
     ThreadedExecution execution(1 + trial % 3);
     const auto walls = tunnelWalls(*solid.labels, { true, width, 1000.0 }, execution);
     OneByOne other(solid, width);
-    EXPECT_EQ(walls, other.walls()) << trial;
+    EXPECT_EQ(walls, other.walls(32000.0)) << trial;
     filled += walls.size();
     floods += other.floods;
   }
   EXPECT_GT(filled, 50u);
   EXPECT_GT(floods, 50u);
+}
+
+TEST(TunnelFilling, OpensLongWallsAsIfAllWereGroupedAnewForEach)
+{
+  std::size_t filled = 0, openings = 0;
+  for (int trial = 0; trial < 6; ++trial)
+  {
+    Random random(trial);
+    std::vector<double> noise(4096);
+    std::generate(noise.begin(), noise.end(), [&] { return random.uniform(); });
+    LabelledSolid solid(4,
+      [&](const LatticePoint& p) { return std::max({ p.i, p.j, p.k }) < 16 ? 0.17 + 0.02 * trial - noise[std::size_t(p.i + 16 * (p.j + 16 * p.k))] : -1.0; });
+    const double loop = 0.8 + 0.2 * (trial % 4);
+    const auto walls = tunnelWalls(*solid.labels, { true, 2 + trial % 3, loop }, solid.execution);
+    OneByOne other(solid, 2 + trial % 3);
+    EXPECT_EQ(walls, other.walls(loop * 16.0)) << trial;
+    filled += walls.size();
+    openings += other.openings;
+  }
+  EXPECT_GT(filled, 20u);
+  EXPECT_GT(openings, 50u);
 }
 
 TEST(TunnelFilling, FillsNarrowTunnelsAndNoOthers)
