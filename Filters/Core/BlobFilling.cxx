@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BlobFilling.h"
 
+#include "BlockBits.h"
 #include "OctantTest.h"
 #include "PointBlocks.h"
 
@@ -26,9 +27,41 @@ struct Region
   std::vector<PointCube> cubes; ///< ascending
 };
 
+/** The corners, ascending, of the blocks of cubes from which a step along an axis leads out of all cubes: what is near cubes but in none is near one of these. */
+std::vector<std::uint64_t> outermost(const std::vector<PointCube>& cubes)
+{
+  const auto isInCube = [&](const PointCube& box)
+  {
+    const PointCube* cube = cubeOf(cubes, box.corner);
+    return cube != nullptr && cube->side >= box.side;
+  };
+  std::vector<std::uint64_t> blocks;
+  const auto addBlock = [&](const LatticePoint& beside, const CubeFace& face)
+  {
+    std::uint64_t block = 0;
+    besideBlock(mortonCode(beside) >> 6, face.axis, !face.ahead, block);
+    blocks.push_back(block);
+  };
+  for (const PointCube& cube : cubes)
+  {
+    forBlocksBeside(cube, isInCube, addBlock);
+  }
+  sortUnique(blocks);
+  std::vector<std::uint64_t> corners;
+  corners.reserve(64 * blocks.size());
+  for (const std::uint64_t block : blocks)
+  {
+    for (std::uint64_t n = 0; n < 64; ++n)
+    {
+      corners.push_back(64 * block + n);
+    }
+  }
+  return corners;
+}
+
 Region regionOf(const Blobs& blobs, int steps, Execution& execution)
 {
-  PointBlocks near(blobs.corners, execution);
+  PointBlocks near(united(blobs.corners, outermost(blobs.cubes)), execution);
   for (int axis = 0; axis < 3; ++axis)
   {
     for (int step = 0; step < steps; ++step)
@@ -337,7 +370,7 @@ BlobFilling fillBlobs(const LatticeViews& fine, const std::vector<Blobs>& blobs,
   filling.pixels.assign(blobs.size(), 0);
   for (std::size_t view = 0; view < blobs.size(); ++view)
   {
-    if (!blobs[view].corners.empty())
+    if (!blobs[view].corners.empty() || !blobs[view].cubes.empty())
     {
       const Region region = regionOf(blobs[view], reach.steps, execution);
       fillView(fine, region, reach.halvings, int(view), repaired[view].silhouette, filling, execution);

@@ -13,11 +13,11 @@
 namespace silhouette
 {
 
-/** Corners that a view alone cuts out of the object: of the cubes' points the outermost are among the corners. */
+/** Corners that a view alone cuts out of the object; both ascending, no corner twice. */
 struct Blobs
 {
-  std::vector<std::uint64_t> corners; ///< Morton codes, ascending
-  std::vector<PointCube> cubes;       ///< ascending
+  std::vector<std::uint64_t> corners; ///< Morton codes
+  std::vector<PointCube> cubes;
 };
 
 struct BlobFilling

@@ -19,11 +19,30 @@ class GrowingPoints
 public:
   bool has(std::uint64_t point) const { return this->Table[this->placeOf(point >> 6)].bits >> (point & 63) & 1; }
 
-  void add(std::uint64_t point)
+  void add(std::uint64_t point) { this->add(BlockWord{ point >> 6, std::uint64_t(1) << (point & 63) }); }
+
+  /** Many points, ascending. */
+  void add(const std::vector<std::uint64_t>& points)
   {
-    BlockWord& word = this->Table[this->placeOf(point >> 6)];
-    const bool isNew = word.bits == 0;
-    word = { point >> 6, word.bits | std::uint64_t(1) << (point & 63) };
+    BlockWord word{ 0, 0 };
+    for (const std::uint64_t point : points)
+    {
+      if (point >> 6 != word.block)
+      {
+        this->add(word);
+        word = { point >> 6, 0 };
+      }
+      word.bits |= std::uint64_t(1) << (point & 63);
+    }
+    this->add(word);
+  }
+
+private:
+  void add(const BlockWord& more)
+  {
+    BlockWord& word = this->Table[this->placeOf(more.block)];
+    const bool isNew = word.bits == 0 && more.bits != 0;
+    word = { more.block, word.bits | more.bits };
     this->Used += isNew;
     if (isNew && 3 * this->Used > 2 * this->Table.size())
     {
@@ -31,7 +50,6 @@ public:
     }
   }
 
-private:
   /** Where a block is or would be. */
   std::size_t placeOf(std::uint64_t block) const
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RejectedCorners.h"
 
+#include "Bits.h"
+#include "BlockBits.h"
 #include "CornerVotes.h"
 #include "GrowingPoints.h"
 #include "IndicesWhere.h"
@@ -11,6 +13,7 @@
 #include "SilhouetteDissent.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -128,6 +131,19 @@ std::vector<Rejected> byView(std::vector<Rejected> rejected, const LatticeViews&
   return sorted;
 }
 
+/** What has been found and from which the search goes on. */
+struct Front
+{
+  std::vector<Rejected> corners;   ///< ascending
+  std::vector<RejectedCube> cubes; ///< ascending, none twice
+};
+
+void sortUnique(std::vector<RejectedCube>& cubes)
+{
+  std::sort(cubes.begin(), cubes.end(), [](const RejectedCube& a, const RejectedCube& b) { return a.cube.corner < b.cube.corner; });
+  cubes.erase(std::unique(cubes.begin(), cubes.end(), [](const RejectedCube& a, const RejectedCube& b) { return a.cube == b.cube; }), cubes.end());
+}
+
 /** The search from the shell on. */
 class Search
 {
@@ -139,23 +155,23 @@ public:
   {
   }
 
-  /** `latest`: of the shell's corners those that one view alone rejects, ascending. */
-  RejectedCorners from(const CornerShell& shell, std::vector<Rejected> latest)
+  /** `first`: of the shell's corners those that one view alone rejects, ascending. */
+  RejectedCorners from(const CornerShell& shell, std::vector<Rejected> first)
   {
-    for (std::size_t c = 0; c < shell.corners.size() && !latest.empty(); ++c)
+    Front front;
+    front.corners = std::move(first);
+    if (!front.corners.empty())
     {
-      this->Seen.add(shell.corners[c]);
+      this->Seen.add(shell.corners);
+      this->takeCubes(front);
     }
-    while (!latest.empty())
+    while (!front.corners.empty() || !front.cubes.empty())
     {
       this->Exec.checkpoint(0.0);
-      const std::vector<RejectedCube> cubes = this->takeCubes(latest);
-      const std::vector<std::uint64_t> next = this->notSeenBeside(latest, cubes);
-      std::for_each(next.begin(), next.end(), [this](std::uint64_t corner) { this->Seen.add(corner); });
-      this->Found.corners.insert(this->Found.corners.end(), latest.begin(), latest.end());
-      this->Found.cubes.insert(this->Found.cubes.end(), cubes.begin(), cubes.end());
-      latest.clear();
-      appendRejected(this->Views, next, latest, this->Exec);
+      Front next = this->beside(front);
+      this->Found.corners.insert(this->Found.corners.end(), front.corners.begin(), front.corners.end());
+      this->Found.cubes.insert(this->Found.cubes.end(), front.cubes.begin(), front.cubes.end());
+      front = std::move(next);
     }
     this->Found.corners = byView(std::move(this->Found.corners), this->Views, this->Exec);
     std::sort(this->Found.cubes.begin(), this->Found.cubes.end(),
@@ -164,83 +180,153 @@ public:
   }
 
 private:
-  /** The cubes around corners that have just been found; what they hold is taken from these, and their outermost points have been seen and found. */
-  std::vector<RejectedCube> takeCubes(std::vector<Rejected>& latest)
+  /** What is met beside cubes: other cubes, and corners to ask about. */
+  struct Met
   {
+    std::vector<RejectedCube> cubes;
+    std::vector<std::uint64_t> corners;
+  };
+
+  Front beside(const Front& front)
+  {
+    Met met = this->besideCubes(front.cubes);
+    std::vector<std::uint64_t> codes(front.corners.size());
+    std::transform(front.corners.begin(), front.corners.end(), codes.begin(), [](const Rejected& one) { return one.corner; });
+    codes = PointBlocks(codes, this->Exec).beside(this->Views.lattice(), this->Exec).points(this->Exec);
+    if (!met.corners.empty())
+    {
+      codes.insert(codes.end(), met.corners.begin(), met.corners.end());
+      radixSort(codes, 3 * (this->Views.lattice().depth + 1), [](std::uint64_t code) { return code; }, this->Exec);
+    }
+    const auto isNew = [&](std::size_t n)
+    { return (n == 0 || codes[n - 1] != codes[n]) && !this->Seen.has(codes[n]) && !this->isInCube(codes[n], LeastCube); };
+    codes = selected(codes.size(), isNew, [&](std::size_t n) { return codes[n]; }, this->Exec);
+    this->Seen.add(codes);
+    Front next;
+    appendRejected(this->Views, codes, next.corners, this->Exec);
+    this->takeCubes(next);
+    next.cubes.insert(next.cubes.end(), met.cubes.begin(), met.cubes.end());
+    sortUnique(next.cubes);
+    return next;
+  }
+
+  /** Take out of a front's corners those that lie in cubes, for these. */
+  void takeCubes(Front& front)
+  {
+    std::vector<Rejected>& corners = front.corners;
     auto starts = selected(
-      latest.size(), [&](std::size_t n) { return n == 0 || latest[n - 1].corner >> 6 != latest[n].corner >> 6; }, [](std::size_t n) { return n; }, this->Exec);
-    std::vector<RejectedCube> cubes(starts.size());
+      corners.size(), [&](std::size_t n) { return n == 0 || corners[n - 1].corner >> 6 != corners[n].corner >> 6; }, [](std::size_t n) { return n; }, this->Exec);
+    std::vector<RejectedCube> cubes(starts.size()); // of the corners of each block
     this->Exec.forRanges(cubes.size(), 64,
       [&](std::size_t first, std::size_t last)
       {
         RejectedCubes known(this->Views, this->Depth);
         for (std::size_t b = first; b < last; ++b)
         {
-          const Rejected& one = latest[starts[b]];
+          const Rejected& one = corners[starts[b]];
           cubes[b] = { known.around(one.corner, one.view), one.view };
         }
       });
-    starts.push_back(latest.size());
+    starts.push_back(corners.size());
     std::vector<Rejected> others;
     for (std::size_t b = 0; b < cubes.size(); ++b)
     {
       if (cubes[b].cube.side == 0)
       {
-        others.insert(others.end(), latest.begin() + std::ptrdiff_t(starts[b]), latest.begin() + std::ptrdiff_t(starts[b + 1]));
+        others.insert(others.end(), corners.begin() + std::ptrdiff_t(starts[b]), corners.begin() + std::ptrdiff_t(starts[b + 1]));
       }
     }
-    latest.swap(others);
-    const auto isNone = [](const RejectedCube& one) { return one.cube.side == 0; };
-    cubes.erase(std::remove_if(cubes.begin(), cubes.end(), isNone), cubes.end());
-    cubes.erase(std::unique(cubes.begin(), cubes.end(), [](const RejectedCube& a, const RejectedCube& b) { return a.cube == b.cube; }), cubes.end());
-    this->addOutermost(cubes);
-    return cubes;
+    corners.swap(others);
+    cubes.erase(std::remove_if(cubes.begin(), cubes.end(), [](const RejectedCube& one) { return one.cube.side == 0; }), cubes.end());
+    this->know(cubes);
+    front.cubes.swap(cubes);
   }
 
-  void addOutermost(const std::vector<RejectedCube>& cubes)
+  Met besideCubes(const std::vector<RejectedCube>& cubes)
+  {
+    std::vector<Met> ofCubes(cubes.size());
+    this->Exec.forRanges(cubes.size(), 1,
+      [&](std::size_t first, std::size_t last)
+      {
+        RejectedCubes known(this->Views, this->Depth);
+        for (std::size_t n = first; n < last; ++n)
+        {
+          this->meet(cubes[n], known, ofCubes[n]);
+        }
+      });
+    Met all;
+    for (const Met& one : ofCubes)
+    {
+      all.cubes.insert(all.cubes.end(), one.cubes.begin(), one.cubes.end());
+      all.corners.insert(all.corners.end(), one.corners.begin(), one.corners.end());
+    }
+    sortUnique(all.cubes);
+    this->know(all.cubes);
+    return all;
+  }
+
+  void meet(const RejectedCube& from, RejectedCubes& known, Met& met) const
+  {
+    const std::int32_t n = this->Views.lattice().cells();
+    const auto isDone = [&](const PointCube& box)
+    {
+      const LatticePoint low = fromMorton(box.corner);
+      if (std::max({ low.i, low.j, low.k }) > n || this->isInCube(box.corner, box.side))
+      {
+        return true;
+      }
+      const PointCube cube = known.around(box.corner, from.view);
+      if (cube.side >= box.side)
+      {
+        met.cubes.push_back({ cube, from.view });
+      }
+      return cube.side >= box.side;
+    };
+    const auto addFacing = [&](const LatticePoint& low, const CubeFace& face)
+    {
+      const std::uint64_t block = mortonCode(low);
+      for (std::uint64_t facing = blockSlab(face.axis, face.ahead ? 0 : BlockSide - 1); facing != 0; facing &= facing - 1)
+      {
+        const std::uint64_t corner = block + std::uint64_t(lowestBit(facing));
+        if (isOfLattice(fromMorton(corner), n))
+        {
+          met.corners.push_back(corner);
+        }
+      }
+    };
+    forBlocksBeside(from.cube, isDone, addFacing);
+  }
+
+  void know(const std::vector<RejectedCube>& cubes)
   {
     for (const RejectedCube& one : cubes)
     {
-      forOutermost(one.cube,
-        [&](const LatticePoint& p)
-        {
-          this->Seen.add(mortonCode(p));
-          this->Found.corners.push_back({ mortonCode(p), one.view });
-        });
+      const int bits = lowestBit(one.cube.size());
+      this->Known[std::size_t(bits / 3)].add(one.cube.corner >> bits);
+      this->Largest = std::max(this->Largest, one.cube.side);
     }
   }
 
-  /** The corners one step from some and from cubes that have not been seen, ascending. */
-  std::vector<std::uint64_t> notSeenBeside(const std::vector<Rejected>& some, const std::vector<RejectedCube>& cubes)
+  /** Is a point in a known cube of so many points along an edge or more? */
+  bool isInCube(std::uint64_t corner, std::int32_t side) const
   {
-    std::vector<std::uint64_t> codes(some.size());
-    std::transform(some.begin(), some.end(), codes.begin(), [](const Rejected& one) { return one.corner; });
-    codes = PointBlocks(codes, this->Exec).beside(this->Views.lattice(), this->Exec).points(this->Exec);
-    const auto forParts = [&](std::size_t n, const auto& add)
+    for (; side <= this->Largest; side *= 2)
     {
-      forBeside(cubes[n].cube,
-        [&](const LatticePoint& p)
-        {
-          if (isOfLattice(p, this->Views.lattice().cells()))
-          {
-            add(mortonCode(p));
-          }
-        });
-    };
-    const auto faces = collectParts<std::uint64_t>(cubes.size(), forParts, this->Exec);
-    if (!faces.empty())
-    {
-      codes.insert(codes.end(), faces.begin(), faces.end());
-      radixSort(codes, 3 * (this->Views.lattice().depth + 1), [](std::uint64_t code) { return code; }, this->Exec);
+      const int generation = lowestBit(std::uint64_t(side));
+      if (this->Known[std::size_t(generation)].has(corner >> 3 * generation))
+      {
+        return true;
+      }
     }
-    const auto isNew = [&](std::size_t n) { return (n == 0 || codes[n - 1] != codes[n]) && !this->Seen.has(codes[n]); };
-    return selected(codes.size(), isNew, [&](std::size_t n) { return codes[n]; }, this->Exec);
+    return false;
   }
 
   const LatticeViews& Views;
   double Depth;
   Execution& Exec;
-  GrowingPoints Seen; ///< that need not be asked about again; of cubes the outermost, which alone can be met
+  GrowingPoints Seen;                                      ///< corners that need not be asked about again
+  std::array<GrowingPoints, MaximumDepth + 1> Known;       ///< cubes, by halvings of their sides to a point
+  std::int32_t Largest = 0;                                ///< side of a known cube
   RejectedCorners Found;
 };
 

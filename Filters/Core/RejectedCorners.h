@@ -28,7 +28,7 @@ struct RejectedCube
   std::int32_t view = -1;
 };
 
-/** What one view alone rejects, by view, then by code: of the cubes' points only the outermost are among the corners. */
+/** What one view alone rejects, by view, then by code: the cubes' points are not among the corners. */
 struct RejectedCorners
 {
   std::vector<Rejected> corners;
@@ -37,7 +37,7 @@ struct RejectedCorners
 
 /**
  * The corners that one view alone rejects, as far as steps along lattice edges reach them from the shell, breadth-first. Where a view is wrong in much of its
- * image that is a solid: cubes of which RejectedCubes knows, in whose view's images no object is within `depth` octants, are passed in one step.
+ * image that is a solid: cubes of which RejectedCubes knows, in whose view's images no object is within `depth` octants, are passed as wholes.
  * `votes`: of the octree, found where it was carved from these views, else nothing. Cost: a vote of each view for each corner that is
  * looked at; of the views that are undecided alone where enough of them never abstain. Memory: as what is rejected has surface.
  */

@@ -13,8 +13,6 @@ namespace silhouette
 namespace
 {
 
-constexpr std::int32_t LeastSide = 4; ///< of a block's words: for fewer points asking each of them costs no more
-
 /** The box of a cube's image and the least depth. */
 struct ImageBox
 {
@@ -67,11 +65,11 @@ PointCube RejectedCubes::around(std::uint64_t corner, int view)
     return this->Last;
   }
   const std::int32_t n = this->Views.lattice().cells();
-  const auto cubeOf = [&](std::int32_t side) { return PointCube{ corner & ~(std::uint64_t(side) * side * side - 1), side }; };
+  const auto cubeAround = [&](std::int32_t side) { return PointCube{ corner & ~(PointCube{ 0, side }.size() - 1), side }; };
   // What a larger cube's image holds its cubes' images hold; from the largest on, so that two points of a cube cannot come to different ones.
-  for (std::int32_t side = this->isFree(view, cubeOf(LeastSide), 0.0, 0.0) ? n : 0; side >= LeastSide; side /= 2)
+  for (std::int32_t side = this->isFree(view, cubeAround(LeastCube), 0.0, 0.0) ? n : 0; side >= LeastCube; side /= 2)
   {
-    const PointCube cube = cubeOf(side);
+    const PointCube cube = cubeAround(side);
     const LatticePoint low = fromMorton(cube.corner);
     if (std::max({ low.i, low.j, low.k }) + side - 1 <= n && this->isFree(view, cube, this->Depth, 1.0) && this->isObjectElsewhere(view, cube))
     {

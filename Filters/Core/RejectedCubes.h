@@ -23,8 +23,8 @@ public:
   }
 
   /**
-   * The largest cube of side 4 and more, aligned as octants are, around a point that one view alone rejects, of which it is known from the cube's images that
-   * all its points are rejected so; of side 0 where there is none. Those of two points are the same or have no point in common. Cost: for each side a test in
+   * The largest cube of side 4 and more, aligned as octants are, around a point, of which it is known from the cube's images that one view
+   * alone rejects all its points; of side 0 where there is none. Those of two points are the same or have no point in common. Cost: for each side a test in
    * that view; where it passes, in the others.
    */
   PointCube around(std::uint64_t corner, int view);

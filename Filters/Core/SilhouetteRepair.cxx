@@ -65,82 +65,43 @@ bool isDeep(const LatticeViews& views, const Rejected& rejected, double depth)
   return true;
 }
 
-/** A component of deep corners that one view rejects. */
-struct Group : Blobs
-{
-
-  /** How many corners, those within cubes among them. */
-  double size() const
-  {
-    double sum = double(this->corners.size());
-    for (const PointCube& cube : this->cubes)
-    {
-      sum += double(cube.end() - cube.corner - cube.outermost());
-    }
-    return sum;
-  }
-};
-
-/** Components, neighbours along edges and diagonals being together, of `least` corners and more; corners and cubes ascending. */
-std::vector<Group> groupsOf(const std::vector<std::uint64_t>& corners, const std::vector<PointCube>& cubes, int least)
-{
-  const auto smallest = std::min_element(cubes.begin(), cubes.end(), [](const PointCube& a, const PointCube& b) { return a.side < b.side; });
-  const auto enough = std::min(std::uint64_t(least), smallest == cubes.end() ? std::uint64_t(least) : smallest->outermost());
-  std::vector<Group> groups;
-  for (auto& component : pointComponents(corners, Steps::Corners, std::size_t(enough)))
-  {
-    Group group;
-    group.corners = std::move(component);
-    for (const std::uint64_t corner : group.corners)
-    {
-      const auto cube = std::lower_bound(cubes.begin(), cubes.end(), corner, [](const PointCube& one, std::uint64_t code) { return one.corner < code; });
-      if (cube != cubes.end() && cube->corner == corner)
-      {
-        group.cubes.push_back(*cube);
-      }
-    }
-    if (group.size() >= least)
-    {
-      groups.push_back(std::move(group));
-    }
-  }
-  return groups;
-}
-
 /** Squares of an octant's size of a view's image that hold one of the corners. */
-std::size_t imageArea(const LatticeProjection& projection, const Group& group)
+std::size_t imageArea(const LatticeProjection& projection, const PointComponent& component)
 {
-  ImageSquares squares(projection, pixelsPerOctant(projection, fromMorton(group.corners.front())));
-  for (const std::uint64_t corner : group.corners)
+  ImageSquares squares(projection, pixelsPerOctant(projection, fromMorton(component.first())));
+  for (const std::uint64_t corner : component.points)
   {
     squares.add(fromMorton(corner));
   }
-  for (const PointCube& cube : group.cubes)
+  for (const PointCube& cube : component.cubes)
   {
     squares.add(cube);
   }
   return squares.count();
 }
 
-/** Of the deep corners that one view rejects those of its blobs: of the large groups that are long along the view. */
+/**
+ * Of the deep corners that one view rejects those of its blobs: of the large components, neighbours along edges and diagonals
+ * being together, that are long along the view.
+ */
 Blobs longAlongTheView(const LatticeViews& views, int view, const Blobs& deep, const SurvivorBox& box, const SilhouetteRepairOptions& options)
 {
-  const auto groups = groupsOf(deep.corners, deep.cubes, options.blobCorners);
+  const auto components = pointComponents(deep.corners, deep.cubes, Steps::Corners, std::size_t(options.blobCorners));
   std::vector<double> chords;
-  for (const Group& group : groups)
+  for (const PointComponent& component : components)
   {
-    chords.push_back(group.size() / double(imageArea(views.projection(view), group)));
+    chords.push_back(double(component.size) / double(imageArea(views.projection(view), component)));
   }
   const double chord = std::max(options.blobChord, FewViewsChord / views.size()) * box.extent;
   Blobs blobs;
   // A view that is wrong elsewhere is trusted less: where a disc crosses the contour, its chord is short.
   const bool isWrong = std::any_of(chords.begin(), chords.end(), [&](double own) { return own >= chord; });
-  for (std::size_t c = 0; c < groups.size() && isWrong; ++c)
+  for (std::size_t c = 0; c < components.size() && isWrong; ++c)
   {
     if (chords[c] >= WrongViewChord * chord)
     {
-      blobs.corners.insert(blobs.corners.end(), groups[c].corners.begin(), groups[c].corners.end());
-      blobs.cubes.insert(blobs.cubes.end(), groups[c].cubes.begin(), groups[c].cubes.end());
+      blobs.corners.insert(blobs.corners.end(), components[c].points.begin(), components[c].points.end());
+      blobs.cubes.insert(blobs.cubes.end(), components[c].cubes.begin(), components[c].cubes.end());
     }
   }
   std::sort(blobs.corners.begin(), blobs.corners.end());
@@ -205,7 +166,7 @@ std::optional<PreparedViews> withoutBlobs(const Octree& octree, const LatticeVie
 {
   const PreparedViews& views = lattice.prepared();
   const auto blobs = findBlobs(octree, lattice, shell, box, options, votes, execution);
-  if (std::all_of(blobs.begin(), blobs.end(), [](const Blobs& ofView) { return ofView.corners.empty(); }))
+  if (std::all_of(blobs.begin(), blobs.end(), [](const Blobs& ofView) { return ofView.corners.empty() && ofView.cubes.empty(); }))
   {
     return std::nullopt;
   }
