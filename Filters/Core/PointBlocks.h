@@ -23,6 +23,8 @@ public:
   PointBlocks(const std::vector<std::uint64_t>& points, Execution& execution);
 
   bool empty() const { return this->Blocks.empty(); }
+  /** The points by blocks, ascending, none without points. */
+  const std::vector<BlockWord>& words() const { return this->Blocks; }
   /** Morton codes of the points, ascending. */
   std::vector<std::uint64_t> points(Execution& execution) const;
   /** The lattice's points one step along a lattice edge from one of these, among them such as are in this set. Cost: linear in the blocks. */

@@ -85,36 +85,89 @@ void joinBlocks(const Parts& all, Steps steps, UnionFind& sets)
   }
 }
 
+/** Join cubes, numbered from the parts' end on, with one another and with the parts: a cube of the same side beside one is in one other that meets it, if in any. */
+void joinCubes(const Parts& all, const std::vector<PointCube>& cubes, Steps steps, UnionFind& sets)
+{
+  const auto numberOf = [&](const LatticePoint& low, std::int32_t side)
+  {
+    const PointCube* cube = std::min({ low.i, low.j, low.k }) < 0 ? nullptr : cubeOf(cubes, mortonCode(low));
+    return cube == nullptr || cube->side < side ? -1 : std::ptrdiff_t(all.parts.size()) + (cube - cubes.data());
+  };
+  for (int n = 0; n < 27; ++n)
+  {
+    const BlockDirection direction(n, steps);
+    if (n == 13 || direction.spreads < 0)
+    {
+      continue;
+    }
+    for (std::size_t c = 0; c < cubes.size(); ++c)
+    {
+      const LatticePoint low = fromMorton(cubes[c].corner), step = direction.step;
+      const std::int32_t side = cubes[c].side;
+      const std::ptrdiff_t other = numberOf({ low.i + side * step.i, low.j + side * step.j, low.k + side * step.k }, side);
+      if (other >= 0)
+      {
+        sets.unite(std::uint32_t(all.parts.size() + c), std::uint32_t(other));
+      }
+    }
+    for (std::size_t block = 0; block < all.blocks.size() && !cubes.empty(); ++block)
+    {
+      const LatticePoint at = fromMorton(all.blocks[block]) + direction.step;
+      const std::ptrdiff_t other =
+        direction.reached(all.points[block]) == 0 ? -1 : numberOf({ BlockSide * at.i, BlockSide * at.j, BlockSide * at.k }, BlockSide);
+      for (std::uint32_t part = all.first[block]; part < all.first[block + 1] && other >= 0; ++part)
+      {
+        if (direction.reached(all.parts[part]) != 0)
+        {
+          sets.unite(part, std::uint32_t(other));
+        }
+      }
+    }
+  }
+}
+
 } // namespace
 
-std::vector<std::vector<std::uint64_t>> pointComponents(const std::vector<std::uint64_t>& points, Steps steps, std::size_t least)
+std::vector<PointComponent> pointComponents(const std::vector<std::uint64_t>& points, const std::vector<PointCube>& cubes, Steps steps, std::size_t least)
 {
   const Parts all(points, steps);
-  UnionFind sets(all.parts.size());
+  UnionFind sets(all.parts.size() + cubes.size());
   joinBlocks(all, steps, sets);
+  joinCubes(all, cubes, steps, sets);
   constexpr std::size_t Nowhere = ~std::size_t(0);
-  std::vector<std::size_t> sizes(all.parts.size(), 0), places(all.parts.size(), Nowhere); // by the parts that stand for the sets
-  for (std::uint32_t part = 0; part < all.parts.size(); ++part)
+  std::vector<std::uint64_t> sizes(all.parts.size() + cubes.size(), 0); // by the numbers that stand for the sets
+  std::vector<std::size_t> places(sizes.size(), Nowhere);
+  for (std::uint32_t number = 0; number < sizes.size(); ++number)
   {
-    sizes[sets.find(part)] += std::size_t(countBits(all.parts[part]));
+    sizes[sets.find(number)] += number < all.parts.size() ? std::uint64_t(countBits(all.parts[number])) : cubes[number - all.parts.size()].size();
   }
-  std::vector<std::vector<std::uint64_t>> components;
+  std::vector<PointComponent> components;
+  const auto componentOf = [&](std::uint32_t number) -> PointComponent*
+  {
+    const std::uint32_t set = sets.find(number);
+    if (sizes[set] >= least && places[set] == Nowhere)
+    {
+      places[set] = components.size();
+      components.emplace_back().size = sizes[set];
+    }
+    return places[set] == Nowhere ? nullptr : &components[places[set]];
+  };
   for (std::size_t block = 0; block < all.blocks.size(); ++block)
   {
     for (std::uint64_t left = all.points[block]; left != 0; left &= left - 1)
     {
       const int bit = lowestBit(left);
-      const std::uint32_t set = sets.find(all.partOf(block, bit));
-      if (sizes[set] < least)
+      if (PointComponent* component = componentOf(all.partOf(block, bit)))
       {
-        continue;
+        component->points.push_back(64 * all.blocks[block] + std::uint64_t(bit));
       }
-      if (places[set] == Nowhere)
-      {
-        places[set] = components.size();
-        components.emplace_back().reserve(sizes[set]);
-      }
-      components[places[set]].push_back(64 * all.blocks[block] + std::uint64_t(bit));
+    }
+  }
+  for (std::size_t c = 0; c < cubes.size(); ++c)
+  {
+    if (PointComponent* component = componentOf(std::uint32_t(all.parts.size() + c)))
+    {
+      component->cubes.push_back(cubes[c]);
     }
   }
   return components;

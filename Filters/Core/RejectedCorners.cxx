@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RejectedCorners.h"
 
+#include "Bits.h"
+#include "BlockBits.h"
 #include "CornerVotes.h"
+#include "GrowingPoints.h"
 #include "IndicesWhere.h"
 #include "LatticeLabels.h"
 #include "PointBlocks.h"
+#include "RadixSort.h"
+#include "RejectedCubes.h"
 #include "SilhouetteDissent.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 namespace silhouette
 {
@@ -106,57 +114,231 @@ std::vector<std::uint64_t> onceDisputed(const Octree& octree, const LatticeViews
 }
 
 /** Sorted by view, then by code. */
-std::vector<Rejected> byView(const std::vector<Rejected>& rejected, int views, Execution& execution)
+std::vector<Rejected> byView(std::vector<Rejected> rejected, const LatticeViews& views, Execution& execution)
 {
-  std::vector<std::size_t> end(std::size_t(views) + 1, 0);
+  radixSort(rejected, 3 * (views.lattice().depth + 1), [](const Rejected& one) { return one.corner; }, execution);
+  std::vector<std::size_t> next(std::size_t(views.size()) + 1, 0);
   for (const Rejected& one : rejected)
   {
-    ++end[std::size_t(one.view) + 1];
+    ++next[std::size_t(one.view) + 1];
   }
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<std::size_t> next(end.begin(), end.end() - 1);
+  std::partial_sum(next.begin(), next.end(), next.begin());
   std::vector<Rejected> sorted(rejected.size());
   for (const Rejected& one : rejected)
   {
     sorted[next[std::size_t(one.view)]++] = one;
   }
-  execution.forRanges(std::size_t(views), 1,
-                      [&](std::size_t first, std::size_t last)
-                      {
-                        for (std::size_t view = first; view < last; ++view)
-                        {
-                          std::sort(sorted.begin() + std::ptrdiff_t(end[view]), sorted.begin() + std::ptrdiff_t(end[view + 1]),
-                                    [](const Rejected& a, const Rejected& b) { return a.corner < b.corner; });
-                        }
-                      });
   return sorted;
 }
 
+/** What has been found and from which the search goes on. */
+struct Front
+{
+  std::vector<Rejected> corners;   ///< ascending
+  std::vector<RejectedCube> cubes; ///< ascending, none twice
+};
+
+void sortUnique(std::vector<RejectedCube>& cubes)
+{
+  std::sort(cubes.begin(), cubes.end(), [](const RejectedCube& a, const RejectedCube& b) { return a.cube.corner < b.cube.corner; });
+  cubes.erase(std::unique(cubes.begin(), cubes.end(), [](const RejectedCube& a, const RejectedCube& b) { return a.cube == b.cube; }), cubes.end());
+}
+
+/** The search from the shell on. */
+class Search
+{
+public:
+  Search(const LatticeViews& views, double depth, Execution& execution)
+    : Views(views)
+    , Depth(depth)
+    , Exec(execution)
+  {
+  }
+
+  /** `first`: of the shell's corners those that one view alone rejects, ascending. */
+  RejectedCorners from(const CornerShell& shell, std::vector<Rejected> first)
+  {
+    Front front;
+    front.corners = std::move(first);
+    if (!front.corners.empty())
+    {
+      this->Seen.add(shell.corners);
+      this->takeCubes(front);
+    }
+    while (!front.corners.empty() || !front.cubes.empty())
+    {
+      this->Exec.checkpoint(0.0);
+      Front next = this->beside(front);
+      this->Found.corners.insert(this->Found.corners.end(), front.corners.begin(), front.corners.end());
+      this->Found.cubes.insert(this->Found.cubes.end(), front.cubes.begin(), front.cubes.end());
+      front = std::move(next);
+    }
+    this->Found.corners = byView(std::move(this->Found.corners), this->Views, this->Exec);
+    std::sort(this->Found.cubes.begin(), this->Found.cubes.end(),
+      [](const RejectedCube& a, const RejectedCube& b) { return std::tie(a.view, a.cube.corner) < std::tie(b.view, b.cube.corner); });
+    return std::move(this->Found);
+  }
+
+private:
+  /** What is met beside cubes: other cubes, and corners to ask about. */
+  struct Met
+  {
+    std::vector<RejectedCube> cubes;
+    std::vector<std::uint64_t> corners;
+  };
+
+  Front beside(const Front& front)
+  {
+    Met met = this->besideCubes(front.cubes);
+    std::vector<std::uint64_t> codes(front.corners.size());
+    std::transform(front.corners.begin(), front.corners.end(), codes.begin(), [](const Rejected& one) { return one.corner; });
+    codes = PointBlocks(codes, this->Exec).beside(this->Views.lattice(), this->Exec).points(this->Exec);
+    if (!met.corners.empty())
+    {
+      codes.insert(codes.end(), met.corners.begin(), met.corners.end());
+      radixSort(codes, 3 * (this->Views.lattice().depth + 1), [](std::uint64_t code) { return code; }, this->Exec);
+    }
+    const auto isNew = [&](std::size_t n)
+    { return (n == 0 || codes[n - 1] != codes[n]) && !this->Seen.has(codes[n]) && !this->isInCube(codes[n], LeastCube); };
+    codes = selected(codes.size(), isNew, [&](std::size_t n) { return codes[n]; }, this->Exec);
+    this->Seen.add(codes);
+    Front next;
+    appendRejected(this->Views, codes, next.corners, this->Exec);
+    this->takeCubes(next);
+    next.cubes.insert(next.cubes.end(), met.cubes.begin(), met.cubes.end());
+    sortUnique(next.cubes);
+    return next;
+  }
+
+  /** Take out of a front's corners those that lie in cubes, for these. */
+  void takeCubes(Front& front)
+  {
+    std::vector<Rejected>& corners = front.corners;
+    auto starts = selected(
+      corners.size(), [&](std::size_t n) { return n == 0 || corners[n - 1].corner >> 6 != corners[n].corner >> 6; }, [](std::size_t n) { return n; }, this->Exec);
+    std::vector<RejectedCube> cubes(starts.size()); // of the corners of each block
+    this->Exec.forRanges(cubes.size(), 64,
+      [&](std::size_t first, std::size_t last)
+      {
+        RejectedCubes known(this->Views, this->Depth);
+        for (std::size_t b = first; b < last; ++b)
+        {
+          const Rejected& one = corners[starts[b]];
+          cubes[b] = { known.around(one.corner, one.view), one.view };
+        }
+      });
+    starts.push_back(corners.size());
+    std::vector<Rejected> others;
+    for (std::size_t b = 0; b < cubes.size(); ++b)
+    {
+      if (cubes[b].cube.side == 0)
+      {
+        others.insert(others.end(), corners.begin() + std::ptrdiff_t(starts[b]), corners.begin() + std::ptrdiff_t(starts[b + 1]));
+      }
+    }
+    corners.swap(others);
+    cubes.erase(std::remove_if(cubes.begin(), cubes.end(), [](const RejectedCube& one) { return one.cube.side == 0; }), cubes.end());
+    this->know(cubes);
+    front.cubes.swap(cubes);
+  }
+
+  Met besideCubes(const std::vector<RejectedCube>& cubes)
+  {
+    std::vector<Met> ofCubes(cubes.size());
+    this->Exec.forRanges(cubes.size(), 1,
+      [&](std::size_t first, std::size_t last)
+      {
+        RejectedCubes known(this->Views, this->Depth);
+        for (std::size_t n = first; n < last; ++n)
+        {
+          this->meet(cubes[n], known, ofCubes[n]);
+        }
+      });
+    Met all;
+    for (const Met& one : ofCubes)
+    {
+      all.cubes.insert(all.cubes.end(), one.cubes.begin(), one.cubes.end());
+      all.corners.insert(all.corners.end(), one.corners.begin(), one.corners.end());
+    }
+    sortUnique(all.cubes);
+    this->know(all.cubes);
+    return all;
+  }
+
+  void meet(const RejectedCube& from, RejectedCubes& known, Met& met) const
+  {
+    const std::int32_t n = this->Views.lattice().cells();
+    const auto isDone = [&](const PointCube& box)
+    {
+      const LatticePoint low = fromMorton(box.corner);
+      if (std::max({ low.i, low.j, low.k }) > n || this->isInCube(box.corner, box.side))
+      {
+        return true;
+      }
+      const PointCube cube = known.around(box.corner, from.view);
+      if (cube.side >= box.side)
+      {
+        met.cubes.push_back({ cube, from.view });
+      }
+      return cube.side >= box.side;
+    };
+    const auto addFacing = [&](const LatticePoint& low, const CubeFace& face)
+    {
+      const std::uint64_t block = mortonCode(low);
+      for (std::uint64_t facing = blockSlab(face.axis, face.ahead ? 0 : BlockSide - 1); facing != 0; facing &= facing - 1)
+      {
+        const std::uint64_t corner = block + std::uint64_t(lowestBit(facing));
+        if (isOfLattice(fromMorton(corner), n))
+        {
+          met.corners.push_back(corner);
+        }
+      }
+    };
+    forBlocksBeside(from.cube, isDone, addFacing);
+  }
+
+  void know(const std::vector<RejectedCube>& cubes)
+  {
+    for (const RejectedCube& one : cubes)
+    {
+      const int bits = lowestBit(one.cube.size());
+      this->Known[std::size_t(bits / 3)].add(one.cube.corner >> bits);
+      this->Largest = std::max(this->Largest, one.cube.side);
+    }
+  }
+
+  /** Is a point in a known cube of so many points along an edge or more? */
+  bool isInCube(std::uint64_t corner, std::int32_t side) const
+  {
+    for (; side <= this->Largest; side *= 2)
+    {
+      const int generation = lowestBit(std::uint64_t(side));
+      if (this->Known[std::size_t(generation)].has(corner >> 3 * generation))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const LatticeViews& Views;
+  double Depth;
+  Execution& Exec;
+  GrowingPoints Seen;                                      ///< corners that need not be asked about again
+  std::array<GrowingPoints, MaximumDepth + 1> Known;       ///< cubes, by halvings of their sides to a point
+  std::int32_t Largest = 0;                                ///< side of a known cube
+  RejectedCorners Found;
+};
+
 } // namespace
 
-std::vector<Rejected> findRejected(const Octree& octree, const LatticeViews& views, const CornerShell& shell,
-                                   KnownVotes::Votes& votes, Execution& execution)
+RejectedCorners findRejected(const Octree& octree, const LatticeViews& views, const CornerShell& shell, double depth,
+                             KnownVotes::Votes& votes, Execution& execution)
 {
   std::vector<Rejected> rejected;
   const std::vector<std::uint64_t> first = onceDisputed(octree, views, shell, votes, execution);
   votes ? appendRejectedOnce(octree, views, first, rejected, execution) : appendRejected(views, first, rejected, execution);
-  PointBlocks before, now(shell.corners, execution);
-  for (std::size_t done = 0; done < rejected.size();)
-  {
-    execution.checkpoint(0.0);
-    std::vector<std::uint64_t> latest;
-    for (; done < rejected.size(); ++done)
-    {
-      latest.push_back(rejected[done].corner);
-    }
-    PointBlocks next = PointBlocks(latest, execution).beside(views.lattice(), execution);
-    next.remove(before, execution);
-    next.remove(now, execution);
-    before = std::move(now);
-    now = std::move(next);
-    appendRejected(views, now.points(execution), rejected, execution);
-  }
-  return byView(rejected, views.size(), execution);
+  return Search(views, depth, execution).from(shell, std::move(rejected));
 }
 
 } // namespace silhouette

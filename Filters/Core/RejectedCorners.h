@@ -5,6 +5,7 @@
 #pragma once
 
 #include "CornerShell.h"
+#include "PointCubes.h"
 #include "PreparedViews.h"
 
 #include <cstdint>
@@ -20,14 +21,27 @@ struct Rejected
   std::int32_t view = -1;
 };
 
+/** A cube of corners that one view alone calls background. */
+struct RejectedCube
+{
+  PointCube cube;
+  std::int32_t view = -1;
+};
+
+/** What one view alone rejects, by view, then by code: the cubes' points are not among the corners. */
+struct RejectedCorners
+{
+  std::vector<Rejected> corners;
+  std::vector<RejectedCube> cubes;
+};
+
 /**
- * The corners that one view alone rejects, as far as steps along lattice edges reach them from the shell; by
- * view, then by code. Breadth-first: a neighbour of one wave belongs to it, to the one before or to the next,
- * so that two waves are all that need be remembered.
+ * The corners that one view alone rejects, as far as steps along lattice edges reach them from the shell, breadth-first. Where a view is wrong in much of its
+ * image that is a solid: cubes of which RejectedCubes knows, in whose view's images no object is within `depth` octants, are passed as wholes.
  * `votes`: of the octree, found where it was carved from these views, else nothing. Cost: a vote of each view for each corner that is
- * looked at; of the views that are undecided alone where enough of them never abstain.
+ * looked at; of the views that are undecided alone where enough of them never abstain. Memory: as what is rejected has surface.
  */
-std::vector<Rejected> findRejected(const Octree& octree, const LatticeViews& views, const CornerShell& shell,
-                                   KnownVotes::Votes& votes, Execution& execution);
+RejectedCorners findRejected(const Octree& octree, const LatticeViews& views, const CornerShell& shell, double depth,
+                             KnownVotes::Votes& votes, Execution& execution);
 
 } // namespace silhouette

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SilhouetteRepair.h"
 
+#include "BlobFilling.h"
+#include "ImageSquares.h"
 #include "PointComponents.h"
 #include "RejectedCorners.h"
 #include "SilhouetteDissent.h"
@@ -64,58 +66,57 @@ bool isDeep(const LatticeViews& views, const Rejected& rejected, double depth)
 }
 
 /** Squares of an octant's size of a view's image that hold one of the corners. */
-std::size_t imageArea(const LatticeProjection& projection, const std::vector<std::uint64_t>& corners, double pixels)
+std::size_t imageArea(const LatticeProjection& projection, const PointComponent& component)
 {
-  std::vector<std::uint64_t> squares;
-  for (const std::uint64_t corner : corners)
+  ImageSquares squares(projection, pixelsPerOctant(projection, fromMorton(component.first())));
+  for (const std::uint64_t corner : component.points)
   {
-    const auto h = projection(fromMorton(corner));
-    const auto column = std::int32_t(std::floor(h.U / h.W / pixels)),
-               row = std::int32_t(std::floor(h.V / h.W / pixels));
-    squares.push_back(std::uint64_t(std::uint32_t(column)) << 32 | std::uint32_t(row));
+    squares.add(fromMorton(corner));
   }
-  sortUnique(squares);
-  return squares.size();
+  for (const PointCube& cube : component.cubes)
+  {
+    squares.add(cube);
+  }
+  return squares.count();
 }
 
 /**
- * Of the corners that one view rejects, ascending, those of its blobs: of the large components, neighbours along edges and diagonals being together, that
- * are long along the view.
+ * Of the deep corners that one view rejects those of its blobs: of the large components, neighbours along edges and diagonals
+ * being together, that are long along the view.
  */
-std::vector<std::uint64_t> longAlongTheView(const LatticeViews& views, int view, const std::vector<std::uint64_t>& corners,
-                                            const SurvivorBox& box, const SilhouetteRepairOptions& options)
+Blobs longAlongTheView(const LatticeViews& views, int view, const Blobs& deep, const SurvivorBox& box, const SilhouetteRepairOptions& options)
 {
-  const LatticeProjection& projection = views.projection(view);
-  const auto components = pointComponents(corners, Steps::Corners, std::size_t(options.blobCorners));
+  const auto components = pointComponents(deep.corners, deep.cubes, Steps::Corners, std::size_t(options.blobCorners));
   std::vector<double> chords;
-  for (const auto& component : components)
+  for (const PointComponent& component : components)
   {
-    const double pixels = pixelsPerOctant(projection, fromMorton(component.front()));
-    chords.push_back(double(component.size()) / double(imageArea(projection, component, pixels)));
+    chords.push_back(double(component.size) / double(imageArea(views.projection(view), component)));
   }
   const double chord = std::max(options.blobChord, FewViewsChord / views.size()) * box.extent;
-  std::vector<std::uint64_t> blobs;
+  Blobs blobs;
   // A view that is wrong elsewhere is trusted less: where a disc crosses the contour, its chord is short.
   const bool isWrong = std::any_of(chords.begin(), chords.end(), [&](double own) { return own >= chord; });
   for (std::size_t c = 0; c < components.size() && isWrong; ++c)
   {
     if (chords[c] >= WrongViewChord * chord)
     {
-      blobs.insert(blobs.end(), components[c].begin(), components[c].end());
+      blobs.corners.insert(blobs.corners.end(), components[c].points.begin(), components[c].points.end());
+      blobs.cubes.insert(blobs.cubes.end(), components[c].cubes.begin(), components[c].cubes.end());
     }
   }
+  std::sort(blobs.corners.begin(), blobs.corners.end());
+  std::sort(blobs.cubes.begin(), blobs.cubes.end(), [](const PointCube& a, const PointCube& b) { return a.corner < b.corner; });
   return blobs;
 }
 
-/** The deep corners of blobs: of components that are long along the view, by view. */
-std::vector<std::vector<std::uint64_t>> findBlobs(const Octree& octree, const LatticeViews& views, const CornerShell& shell,
-                                                  const SurvivorBox& box,
-                                                  const SilhouetteRepairOptions& options,
-                                                  KnownVotes::Votes& votes, Execution& execution)
+/** The deep ones of the corners that one view alone rejects, by view. */
+std::vector<Blobs> deepCorners(const Octree& octree, const LatticeViews& views, const CornerShell& shell, const SilhouetteRepairOptions& options,
+                               KnownVotes::Votes& votes, Execution& execution)
 {
-  const std::vector<Rejected> corners = findRejected(octree, views, shell, votes, execution);
-  std::vector<std::uint8_t> deep(corners.size(), 0);
   const double depth = std::max(options.blobDepth, FewViewsDepth / (double(views.size()) * views.size()));
+  const RejectedCorners rejected = findRejected(octree, views, shell, depth, votes, execution);
+  const std::vector<Rejected>& corners = rejected.corners;
+  std::vector<std::uint8_t> deep(corners.size(), 0);
   execution.forRanges(corners.size(), 1024,
                       [&](std::size_t first, std::size_t last)
                       {
@@ -124,92 +125,37 @@ std::vector<std::vector<std::uint64_t>> findBlobs(const Octree& octree, const La
                           deep[c] = isDeep(views, corners[c], depth) ? 1 : 0;
                         }
                       });
-  std::vector<std::vector<std::uint64_t>> ofViews(std::size_t(views.size()));
+  std::vector<Blobs> ofViews(std::size_t(views.size()));
   for (std::size_t c = 0; c < corners.size(); ++c)
   {
     if (deep[c] != 0)
     {
-      ofViews[std::size_t(corners[c].view)].push_back(corners[c].corner);
+      ofViews[std::size_t(corners[c].view)].corners.push_back(corners[c].corner);
     }
   }
-  std::vector<std::vector<std::uint64_t>> blobs(ofViews.size());
-  execution.forRanges(ofViews.size(), 1,
+  for (const RejectedCube& one : rejected.cubes)
+  {
+    ofViews[std::size_t(one.view)].cubes.push_back(one.cube);
+  }
+  return ofViews;
+}
+
+/** The deep corners of blobs: of components that are long along the view, by view. */
+std::vector<Blobs> findBlobs(const Octree& octree, const LatticeViews& views, const CornerShell& shell, const SurvivorBox& box,
+                             const SilhouetteRepairOptions& options, KnownVotes::Votes& votes, Execution& execution)
+{
+  const std::vector<Blobs> deep = deepCorners(octree, views, shell, options, votes, execution);
+  execution.checkpoint(0.0);
+  std::vector<Blobs> blobs(deep.size());
+  execution.forRanges(deep.size(), 1,
                       [&](std::size_t first, std::size_t last)
                       {
                         for (std::size_t view = first; view < last; ++view)
                         {
-                          blobs[view] = longAlongTheView(views, int(view), ofViews[view], box, options);
+                          blobs[view] = longAlongTheView(views, int(view), deep[view], box, options);
                         }
                       });
   return blobs;
-}
-
-/** The corners within `reach` steps of the given ones. */
-std::vector<std::uint64_t> dilated(std::vector<std::uint64_t> corners, int reach, std::int32_t n)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::vector<std::uint64_t> wider;
-    for (const std::uint64_t corner : corners)
-    {
-      const LatticePoint p = fromMorton(corner);
-      for (int step = -reach; step <= reach; ++step)
-      {
-        const LatticePoint q = {p.i + (axis == 0 ? step : 0), p.j + (axis == 1 ? step : 0),
-                                p.k + (axis == 2 ? step : 0)};
-        if (isOfLattice(q, n))
-        {
-          wider.push_back(mortonCode(q));
-        }
-      }
-    }
-    sortUnique(wider);
-    corners.swap(wider);
-  }
-  return corners;
-}
-
-/**
- * Fill the background pixels of view `i` that a point near the blob's corners falls into which every other
- * view calls object. The points are those of a lattice about as fine as the pixels, `halvings` finer than the
- * octree's, so that the contour stays where the other views have it. Returns how many.
- */
-std::uint64_t fillBlobs(const LatticeViews& fine, int halvings, int i,
-                        const std::vector<std::uint64_t>& corners, BinaryImage& mask)
-{
-  std::uint64_t filled = 0;
-  const std::int32_t size = std::int32_t(1) << halvings, n = fine.lattice().cells();
-  const LatticeProjection& projection = fine.projection(i);
-  int objector = i; // the view that rejected the last point is likely to reject the next one
-  for (const std::uint64_t corner : corners)
-  {
-    const LatticePoint p = fromMorton(corner);
-    for (std::int32_t s = 0; s < size * size * size; ++s)
-    {
-      const LatticePoint q = {p.i * size + s % size - size / 2, p.j * size + s / size % size - size / 2,
-                              p.k * size + s / size / size - size / 2};
-      const auto h = projection(q);
-      if (!isOfLattice(q, n) || !(h.W > projection.minimumDepth))
-      {
-        continue;
-      }
-      const int column = PreparedView::nearestPixel(h.U / h.W, mask.width);
-      const int row = PreparedView::nearestPixel(h.V / h.W, mask.height);
-      if (column < 0 || row < 0 || column >= mask.width || row >= mask.height || mask.at(column, row) != 0 ||
-          (objector != i && fine.vote(objector, q) == Vote::Background))
-      {
-        continue;
-      }
-      const Dissent dissent = dissentAt(fine, q);
-      if (dissent.only == i)
-      {
-        mask.at(column, row) = 1;
-        ++filled;
-      }
-      objector = dissent.last >= 0 ? dissent.last : i;
-    }
-  }
-  return filled;
 }
 
 /** The views with their blobs filled, or nothing where there are none; adds to `filled` by view. */
@@ -220,33 +166,21 @@ std::optional<PreparedViews> withoutBlobs(const Octree& octree, const LatticeVie
 {
   const PreparedViews& views = lattice.prepared();
   const auto blobs = findBlobs(octree, lattice, shell, box, options, votes, execution);
-  if (std::all_of(blobs.begin(), blobs.end(), [](const auto& corners) { return corners.empty(); }))
+  if (std::all_of(blobs.begin(), blobs.end(), [](const Blobs& ofView) { return ofView.corners.empty() && ofView.cubes.empty(); }))
   {
     return std::nullopt;
   }
   const Lattice finer = pixelLattice(lattice, box);
-  const int halvings = finer.depth - lattice.lattice().depth;
-  const LatticeViews fine(views, finer);
-  const int reach = 1 + int(std::ceil(std::min(options.blobDepth, double(lattice.lattice().cells()))));
+  const int octants = int(std::ceil(std::min(options.blobDepth, double(lattice.lattice().cells()))));
   std::vector<View> repaired = copyViews(views);
-  std::vector<std::uint64_t> counts(views.size(), 0);
-  execution.forRanges(views.size(), 1,
-                      [&](std::size_t first, std::size_t last)
-                      {
-                        for (std::size_t i = first; i < last; ++i)
-                        {
-                          const auto corners = dilated(blobs[i], reach, lattice.lattice().cells());
-                          counts[i] = fillBlobs(fine, halvings, int(i), corners, repaired[i].silhouette);
-                        }
-                      });
-  std::uint64_t total = 0;
-  for (int i = 0; i < views.size(); ++i)
+  const BlobFilling filling = fillBlobs(
+    LatticeViews(views, finer), blobs, { finer.depth - lattice.lattice().depth, 1 + octants }, repaired, execution);
+  for (std::size_t i = 0; i < filled.size(); ++i)
   {
-    filled[i] += counts[i];
-    total += counts[i];
+    filled[i] += filling.pixels[i];
   }
-  return total > 0 ? std::optional<PreparedViews>(PreparedViews(repaired, views.options(), execution))
-                   : std::nullopt;
+  const bool isAny = std::any_of(filling.pixels.begin(), filling.pixels.end(), [](std::uint64_t pixels) { return pixels > 0; });
+  return isAny ? std::optional<PreparedViews>(PreparedViews(repaired, views.options(), execution)) : std::nullopt;
 }
 
 } // namespace

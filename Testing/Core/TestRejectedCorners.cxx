@@ -48,7 +48,29 @@ std::map<std::uint64_t, int> rejectedOneByOne(const LatticeViews& views, const C
   return rejected;
 }
 
+/** Add the points of a cube, none of which is there. Returns how many. */
+std::size_t addWithin(const RejectedCube& one, std::map<std::uint64_t, int>& byCorner)
+{
+  for (std::uint64_t code = one.cube.corner; code < one.cube.end(); ++code)
+  {
+    EXPECT_TRUE(byCorner.emplace(code, one.view).second);
+  }
+  return std::size_t(one.cube.size());
+}
+
 } // namespace
+
+/** A ball in a ring of views, one of which has lost its right half. */
+std::vector<View> withoutRightHalf(int size)
+{
+  auto captured = viewsOf(sphereMesh(4, 0.9), swayingRing(24, size), size);
+  BinaryImage& image = captured[0].silhouette;
+  for (int row = 0; row < image.height; ++row)
+  {
+    std::fill(&image.at(size / 2, row), &image.at(size - 1, row) + 1, std::uint8_t(0));
+  }
+  return captured;
+}
 
 /** Whether views abstain or not, may dissent or not, and whoever carved the octree. */
 TEST(RejectedCorners, AreThoseThatOneViewAloneCallsBackground)
@@ -72,18 +94,51 @@ TEST(RejectedCorners, AreThoseThatOneViewAloneCallsBackground)
       for (const Octree* one : { &octree, static_cast<const Octree*>(&another) })
       {
         KnownVotes::Votes votes;
-        const auto found = findRejected(*one, views, shell, votes, execution);
+        const auto [found, cubes] = findRejected(*one, views, shell, 0.1 * (kind % 2), votes, execution);
         EXPECT_EQ(votes != nullptr, one == &octree);
         std::map<std::uint64_t, int> byCorner;
+        std::size_t within = 0;
         for (std::size_t n = 0; n < found.size(); ++n)
         {
           byCorner.emplace(found[n].corner, found[n].view);
           EXPECT_TRUE(n == 0 || found[n - 1].view < found[n].view ||
             (found[n - 1].view == found[n].view && found[n - 1].corner < found[n].corner));
         }
+        for (const RejectedCube& cube : cubes)
+        {
+          within += addWithin(cube, byCorner);
+        }
         EXPECT_EQ(byCorner, expected) << "noise " << kind << ", policy " << int(policy);
-        EXPECT_EQ(found.size(), expected.size());
+        EXPECT_EQ(found.size() + within, expected.size());
       }
     }
   }
+}
+
+/** What a view lacks half of is a solid: its corners are eight times as many with each generation, what is kept of them about four times. */
+TEST(RejectedCorners, GrowLikeTheSurfaceOfWhatIsRejected)
+{
+  const PreparedViews prepared = prepareViews(withoutRightHalf(256));
+  ThreadedExecution execution(2);
+  std::vector<double> kept, all;
+  for (int depth = 5; depth <= 8; ++depth)
+  {
+    const Octree octree = carveViews(prepared, unitCube(), depth);
+    const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
+    KnownVotes::Votes votes;
+    const RejectedCorners found = findRejected(octree, LatticeViews(prepared, octree.lattice), shell, 0.1, votes, execution);
+    kept.push_back(double(found.corners.size() + found.cubes.size()));
+    all.push_back(double(found.corners.size()));
+    for (const RejectedCube& one : found.cubes)
+    {
+      EXPECT_EQ(one.view, 0);
+      all.back() += double(one.cube.size());
+    }
+    if (depth >= 7)
+    {
+      EXPECT_LT(kept.back(), 5.0 * kept.end()[-2]) << depth;
+      EXPECT_GT(all.back(), 6.5 * all.end()[-2]) << depth;
+    }
+  }
+  EXPECT_GT(all.back(), 3.0 * kept.back());
 }

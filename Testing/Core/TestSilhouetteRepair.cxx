@@ -217,6 +217,39 @@ TEST(SilhouetteRepair, FillsBlobsThatCrossInTheSolid)
   }
 }
 
+/** A mask that lacks half of the object, as the solid that it alone rejects, is filled like any other blob. */
+TEST(SilhouetteRepair, FillsHalfOfAMask)
+{
+  const Mesh mesh = sphereMesh(4, 0.9);
+  const auto clean = viewsOf(mesh, swayingRing(24, 300), 300);
+  auto views = clean;
+  BinaryImage& half = views[5].silhouette;
+  for (int row = 0; row < half.height; ++row)
+  {
+    std::fill(&half.at(150, row), &half.at(half.width - 1, row) + 1, std::uint8_t(0));
+  }
+  Execution execution;
+  ThreadedExecution threads(3);
+  for (const int depth : {5, 6, 7})
+  {
+    const auto result = repair(prepareViews(views), depth, depth == 6 ? threads : execution);
+    ASSERT_TRUE(result.views);
+    std::uint64_t wrong = 0;
+    for (std::size_t i = 0; i < views.size(); ++i)
+    {
+      const auto& repaired = result.views->operator[](int(i)).object;
+      for (std::size_t p = 0; p < repaired.size(); ++p)
+      {
+        wrong += repaired[p] != clean[i].silhouette.pixels[p];
+      }
+      EXPECT_EQ(result.blobs[i] > 0, i == 5);
+    }
+    EXPECT_GT(result.blobs[5], 10000u);
+    // The hull of the other views is a little larger than the ball.
+    EXPECT_LE(wrong, result.blobs[5] / 50) << "depth " << depth << " of " << result.blobs[5];
+  }
+}
+
 TEST(SilhouetteRepair, IsTheSameForAnyNumberOfThreads)
 {
   Execution execution;
