@@ -227,17 +227,22 @@ private:
           cubes[b] = { known.around(one.corner, one.view), one.view };
         }
       });
+    const auto isNone = [](const RejectedCube& one) { return one.cube.side == 0; };
+    if (std::all_of(cubes.begin(), cubes.end(), isNone))
+    {
+      return;
+    }
     starts.push_back(corners.size());
     std::vector<Rejected> others;
     for (std::size_t b = 0; b < cubes.size(); ++b)
     {
-      if (cubes[b].cube.side == 0)
+      if (isNone(cubes[b]))
       {
         others.insert(others.end(), corners.begin() + std::ptrdiff_t(starts[b]), corners.begin() + std::ptrdiff_t(starts[b + 1]));
       }
     }
     corners.swap(others);
-    cubes.erase(std::remove_if(cubes.begin(), cubes.end(), [](const RejectedCube& one) { return one.cube.side == 0; }), cubes.end());
+    cubes.erase(std::remove_if(cubes.begin(), cubes.end(), isNone), cubes.end());
     this->know(cubes);
     front.cubes.swap(cubes);
   }
