@@ -18,6 +18,9 @@ namespace silhouette
 namespace
 {
 
+constexpr std::size_t LooksApart = 64;       ///< octants after which whoever covers them one after another asks whether it is cancelled
+constexpr std::size_t ClustersAtOnce = 4096; ///< after which whoever covers clusters does
+
 /** The solid's components, for whoever labels corners inside that change them. */
 class Components
 {
@@ -25,8 +28,12 @@ public:
   Components(const LatticeLabels& labels, Execution& execution)
     : Solid(labels, execution)
     , Corners(labels.shell().corners)
+    , Run(execution)
   {
   }
+
+  /** They are given only to who works on the calling thread. */
+  void stopIfCancelled() { Unannounced(this->Run).checkpoint(1.0); }
 
   bool areJoinedAt(const LatticePoint& p, const TopologicalNumbers& numbers) { return joinsComponents(p, numbers, this->Corners, this->Solid); }
 
@@ -44,6 +51,7 @@ public:
 private:
   SolidComponents Solid;
   CodeCursor Corners;
+  Execution& Run;
 };
 
 /** Covers some of the lost octants, none of which is near any other. Labels nothing itself. For one thread at a time. */
@@ -157,6 +165,10 @@ private:
     std::size_t at = 0, next = 0;
     while (at < list.size() || next < this->Cells.size())
     {
+      if (this->Solid && (at + next) % LooksApart == 0)
+      {
+        this->Solid->stopIfCancelled();
+      }
       const bool isGrowing = at < list.size();
       const std::uint32_t cell = isGrowing ? list[at++] : std::uint32_t(next++);
       if (this->covered(cell))
@@ -321,15 +333,19 @@ struct Clusters
     };
     std::vector<LostCovering> found(clusters.size());
     std::vector<std::uint8_t> isCovered(clusters.size(), 0);
-    execution.forRanges(clusters.size(), 64,
-      [&](std::size_t first, std::size_t last)
-      {
-        Cover cover(labels, cells, depth);
-        for (std::size_t cluster = first; cluster < last; ++cluster)
+    for (std::size_t begin = 0; begin < clusters.size(); begin += ClustersAtOnce)
+    {
+      Unannounced(execution).checkpoint(1.0);
+      execution.forRanges(std::min(clusters.size() - begin, ClustersAtOnce), 64,
+        [&](std::size_t first, std::size_t last)
         {
-          isCovered[cluster] = cover.run(cellsOf(cluster), nullptr, found[cluster]);
-        }
-      });
+          Cover cover(labels, cells, depth);
+          for (std::size_t cluster = begin + first; cluster < begin + last; ++cluster)
+          {
+            isCovered[cluster] = cover.run(cellsOf(cluster), nullptr, found[cluster]);
+          }
+        });
+    }
     for (std::size_t cluster = 0; cluster < clusters.size(); ++cluster)
     {
       const auto& corners = found[cluster].corners;

@@ -17,6 +17,7 @@ namespace
 {
 
 constexpr std::uint32_t None = 0xffffffffu;
+constexpr std::size_t LooksApart = 64; ///< cells, corners or bridges after which it is asked whether to stop
 
 struct Candidate
 {
@@ -42,18 +43,27 @@ public:
     , Loop(loop)
     , Solid(labels, execution)
     , Result(result)
+    , Run(execution)
   {
   }
 
-  void run(const std::vector<Bridge>& bridges, Execution& execution)
+  void run(const std::vector<Bridge>& bridges)
   {
-    this->joinWithinCells(execution);
+    this->joinWithinCells();
     this->joinAcrossCorners();
     this->build(bridges);
   }
 
 private:
   const CornerShell& shell() const { return this->Labels.shell(); }
+  void stopIfCancelled()
+  {
+    if (++this->Looks % LooksApart == 0)
+    {
+      Unannounced(this->Run).checkpoint(1.0);
+    }
+  }
+
   bool inside(std::uint32_t corner) const { return this->Labels.inside()[corner] != 0; }
   std::uint32_t component(std::uint32_t corner) { return this->Solid.of(corner); }
 
@@ -140,6 +150,7 @@ private:
   /** The inside corners of a cell belong to one component then. */
   void joinWithin(std::uint32_t cell)
   {
+    this->stopIfCancelled();
     if (this->hasDiagonal(cell))
     {
       std::array<std::uint32_t, 2> ends;
@@ -161,9 +172,9 @@ private:
     }
   }
 
-  void joinWithinCells(Execution& execution)
+  void joinWithinCells()
   {
-    for (const std::int32_t cell : indicesWhere(this->shell().cells.size(), 4096, execution,
+    for (const std::int32_t cell : indicesWhere(this->shell().cells.size(), 4096, this->Run,
            [&](std::size_t one) { return this->Labels.isSurvivor(one) && this->hasDiagonal(std::uint32_t(one)); }))
     {
       this->joinWithin(std::uint32_t(cell));
@@ -249,6 +260,7 @@ private:
     std::vector<Candidate> apart;
     for (const std::uint32_t corner : this->cornersBetweenComponents())
     {
+      this->stopIfCancelled();
       if (!this->onBorder(corner))
       {
         apart.push_back(this->consider(corner, this->effectOf(corner)));
@@ -258,6 +270,7 @@ private:
     std::array<std::uint32_t, 8> cells;
     for (const auto& candidate : apart)
     {
+      this->stopIfCancelled();
       const int count = this->Labels.cellsAround(fromMorton(this->shell().corners[candidate.corner]), cells);
       if (!this->inside(candidate.corner) && this->parts(cells, count))
       {
@@ -298,6 +311,7 @@ private:
     ShellPaths paths(this->shell());
     for (const auto& bridge : bridges)
     {
+      this->stopIfCancelled();
       if (!this->isNeeded(bridge, paths))
       {
         continue;
@@ -320,6 +334,8 @@ private:
   SolidComponents Solid;
   std::deque<std::uint32_t> Unsettled;
   CoveringResult& Result;
+  Execution& Run;
+  std::size_t Looks = 0; ///< at cells, corners and bridges
 };
 
 /** The shell's survivors without an inside corner. */
@@ -342,7 +358,7 @@ CoveringResult coverSurvivors(
   LostCovering covering = coverLost(labels, result.coveredCells, depth, execution);
   result.coveringCorners = std::move(covering.corners);
   result.mayEnclose = covering.mayEnclose;
-  Covering(labels, loop, depth, result, execution).run(bridges, execution);
+  Covering(labels, loop, depth, result, execution).run(bridges);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "IndicesWhere.h"
 #include "IntersectionsNear.h"
 #include "MovedVolumes.h"
+#include "NearOctants.h"
 #include "PointBlocks.h"
 #include "ThinSolid.h"
 
@@ -58,7 +59,8 @@ public:
   }
 
 private:
-  static constexpr int Rounds = 5; ///< after so many a point stays where it was
+  static constexpr int Rounds = 5;           ///< after so many a point stays where it was
+  static constexpr std::size_t Batches = 16; ///< times that aiming asks whether it is cancelled
 
   const Lattice& lattice() const { return this->Thin.labels.octree().lattice; }
 
@@ -77,6 +79,23 @@ private:
     return false;
   }
 
+  /** Of a covering corner's point: 0 where no hull ends on its edge, or none of those is better than what is there. */
+  Vector3 moveOf(std::size_t point, const ThinSolid& solid, double reach) const
+  {
+    const CrossedEdge& edge = this->Thin.surface.edges[point];
+    const std::uint64_t inside = this->Thin.shell.corners[edge.inside], outside = this->Thin.shell.corners[edge.outside];
+    const Vector3 start = this->TheMesh.points[point];
+    const double leaf = this->lattice().leafEdge();
+    Vector3 target;
+    if (!solid.surfaceBetween(toVector(fromMorton(inside)), toVector(fromMorton(outside)), target) ||
+      (this->onSolid(inside) && !solid.isBetter(target, (start - this->lattice().root.origin) / leaf)))
+    {
+      return Vector3::Zero();
+    }
+    const Vector3 move = this->lattice().root.origin + target * leaf - start;
+    return move * std::min(1.0, reach * leaf / std::max(move.norm(), 1e-300));
+  }
+
   void aim(const ThinSolid& solid, double reach)
   {
     const auto& edges = this->Thin.surface.edges;
@@ -90,24 +109,19 @@ private:
     const std::vector<std::int32_t> candidates =
       indicesWhere(reach > 0.0 ? edges.size() : 0, 4096, this->Run, [&](std::size_t e) { return isAdded[edges[e].inside] != 0; });
     std::vector<Vector3> moves(candidates.size(), Vector3::Zero());
-    this->Run.forRanges(candidates.size(), 16,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t n = first; n < last; ++n)
+    for (std::size_t batch = 0; batch < Batches; ++batch)
+    {
+      const std::size_t begin = candidates.size() * batch / Batches;
+      this->Run.forRanges(candidates.size() * (batch + 1) / Batches - begin, 16,
+        [&](std::size_t first, std::size_t last)
         {
-          const CrossedEdge& edge = edges[std::size_t(candidates[n])];
-          const Vector3 start = this->TheMesh.points[std::size_t(candidates[n])];
-          Vector3 target;
-          if (solid.surfaceBetween(toVector(fromMorton(shell.corners[edge.inside])),
-                toVector(fromMorton(shell.corners[edge.outside])), target) &&
-            (!this->onSolid(shell.corners[edge.inside]) ||
-              solid.isBetter(target, (start - this->lattice().root.origin) / this->lattice().leafEdge())))
+          for (std::size_t n = begin + first; n < begin + last; ++n)
           {
-            const Vector3 move = this->lattice().root.origin + target * this->lattice().leafEdge() - start;
-            moves[n] = move * std::min(1.0, reach * this->lattice().leafEdge() / std::max(move.norm(), 1e-300));
+            moves[n] = this->moveOf(std::size_t(candidates[n]), solid, reach);
           }
-        }
-      });
+        });
+      this->Run.checkpoint(0.3 * double(batch + 1) / Batches);
+    }
     for (std::size_t n = 0; n < candidates.size(); ++n)
     {
       if (moves[n] != Vector3::Zero())
@@ -122,7 +136,6 @@ private:
     this->Scale.assign(this->Points.size(), 1.0);
     this->Withdrawn.assign(this->Points.size(), 0);
     this->ChangedAt.assign(this->Points.size(), 0);
-    this->Run.checkpoint(0.3);
   }
 
   void place(std::size_t m)
@@ -206,14 +219,18 @@ private:
   {
     const Vector3 slack = Vector3::Constant(1e-3 * this->lattice().leafEdge()); // for rounding
     this->Moving = this->movingTriangles();
+    this->Run.checkpoint(0.32);
     for (const std::int32_t t : this->Moving)
     {
       const Box box = this->sweptBy(std::size_t(t));
       this->Swept.emplace_back(box.min() - slack, box.max() + slack);
     }
     const BoxTree tree(this->Swept, this->Run);
+    this->Run.checkpoint(0.34);
     this->CellsMet = cellsMet(this->lattice(), this->Swept);
+    this->Run.checkpoint(0.36);
     const std::vector<std::int32_t> triangles = this->withMoving(this->Cells.ofCells(this->CellsMet));
+    this->Run.checkpoint(0.37);
     const auto isNear = [&](std::size_t n)
     {
       bool near = false;
@@ -225,6 +242,7 @@ private:
     {
       near.push_back(triangles[std::size_t(n)]);
     }
+    this->Run.checkpoint(0.39);
     this->Near = IntersectionsNear(this->TheMesh, std::move(near));
     this->Run.checkpoint(0.4);
   }
@@ -353,22 +371,15 @@ private:
     return any;
   }
 
-  /** The points that lay within `ring` octants of one of the octants. */
+  /** The points that lay within `ring` octants of one of the octants, which are ascending. */
   std::vector<std::size_t> pointsAround(const std::vector<std::uint64_t>& octants, int ring) const
   {
+    const auto lay = [&](std::size_t m)
+    { return isNearOctant(octants, (this->Original[m] - this->lattice().root.origin) / this->lattice().leafEdge(), ring, this->lattice().cells()); };
     std::vector<std::size_t> result;
-    for (std::size_t m = 0; m < this->Points.size(); ++m)
+    for (const std::int32_t m : indicesWhere(this->Points.size(), 256, this->Run, lay))
     {
-      const Vector3 p = (this->Original[m] - this->lattice().root.origin) / this->lattice().leafEdge();
-      for (const std::uint64_t code : octants)
-      {
-        const Vector3 away = p - toVector(fromMorton(code)) - Vector3::Constant(0.5);
-        if (away.cwiseAbs().maxCoeff() <= 0.5 + ring + 1e-3)
-        {
-          result.push_back(this->Points[m]);
-          break;
-        }
-      }
+      result.push_back(this->Points[std::size_t(m)]);
     }
     return result;
   }

@@ -141,13 +141,7 @@ public:
   }
 
   /** Only where it is the calling thread that grows. */
-  void stopIfCancelled() const
-  {
-    if (this->Run.cancelled())
-    {
-      throw Cancelled();
-    }
-  }
+  void stopIfCancelled() { Unannounced(this->Run).checkpoint(1.0); }
 
   /** A point has been taken. */
   void take(std::size_t n)

@@ -47,6 +47,22 @@ private:
   int Threads;
 };
 
+/** Stops when it is asked for the `last`-th time whether to, counted from 0. */
+class StoppedAt : public Execution
+{
+public:
+  explicit StoppedAt(int last)
+    : Last(last)
+  {
+  }
+  bool cancelled() const override { return this->Asked++ >= this->Last; }
+  int asked() const { return this->Asked; }
+
+private:
+  int Last;
+  mutable int Asked = 0;
+};
+
 /** Cancelled from the start; remembers whether progress ever fell. */
 class CancelledExecution : public Execution
 {

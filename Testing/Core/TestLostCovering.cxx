@@ -192,3 +192,28 @@ TEST(LostCovering, OfNoneLabelsNothing)
   EXPECT_TRUE(coverLost(labels, {}, nullptr, execution).corners.empty());
   EXPECT_EQ(labels.inside(), before);
 }
+
+TEST(LostCovering, CanBeCancelledAtAnyTime)
+{
+  Execution execution;
+  Random random(3);
+  auto captured = viewsOf(torusMesh(48, 24, 0.75, 0.2), swayingRing(9, 100), 100);
+  for (int n = 0; n < 4; ++n)
+  {
+    disturb(captured, 1, random);
+  }
+  const PreparedViews views = prepareViews(captured);
+  const Octree octree = carveViews(views, unitCube(), 5);
+  const LatticeLabels labels(octree, makeCornerShell(leafCells(octree, OctantState::Intersection), execution), views, execution);
+  const auto lost = lostCells(labels);
+  LatticeLabels covered = labels;
+  StoppedAt never(1 << 30);
+  coverLost(covered, lost, nullptr, never);
+  EXPECT_GE(never.asked(), int(lost.size() / 64));
+  for (int last = 0; last < never.asked(); last += 1 + never.asked() / 8)
+  {
+    LatticeLabels own = labels;
+    StoppedAt stopped(last);
+    EXPECT_THROW(coverLost(own, lost, nullptr, stopped), Cancelled) << last;
+  }
+}

@@ -3,6 +3,7 @@
 
 #include "CarvingTestCaptures.h"
 #include "LatticeRegions.h"
+#include "LostCovering.h"
 #include "UnionFind.h"
 
 #include <gtest/gtest.h>
@@ -88,4 +89,32 @@ TEST(SurvivorCovering, SaysWhetherItMayHaveEnclosedACavity)
   }
   EXPECT_GT(others, 5);
   EXPECT_GT(enclosing, 5);
+}
+
+TEST(SurvivorCovering, CanBeCancelledAtAnyTime)
+{
+  Execution execution;
+  Random random(4);
+  auto captured = viewsOf(torusMesh(48, 24, 0.75, 0.2), swayingRing(9, 100), 100);
+  for (int n = 0; n < 4; ++n)
+  {
+    disturb(captured, 1, random);
+  }
+  const PreparedViews views = prepareViews(captured);
+  const Octree octree = carveViews(views, unitCube(), 5);
+  const LatticeLabels labels(octree, makeCornerShell(leafCells(octree, OctantState::Intersection), execution), views, execution);
+  LatticeLabels covered = labels;
+  const auto lost = coverSurvivors(covered, {}, 0, nullptr, execution).coveredCells;
+  covered = labels;
+  StoppedAt covering(1 << 30), never(1 << 30);
+  coverLost(covered, lost, nullptr, covering);
+  covered = labels;
+  coverSurvivors(covered, {}, 0, nullptr, never);
+  EXPECT_GE(never.asked(), covering.asked() + 4) << "what joins them asks, too";
+  for (int last = 0; last < never.asked(); last += 1 + never.asked() / 8)
+  {
+    LatticeLabels own = labels;
+    StoppedAt stopped(last);
+    EXPECT_THROW(coverSurvivors(own, {}, 0, nullptr, stopped), Cancelled) << last;
+  }
 }

@@ -103,7 +103,7 @@ TEST(ThinHullFitting, SameBytesForAnyNumberOfThreads)
   }
 }
 
-TEST(ThinHullFitting, OptionsOutOfRangeAreErrorsAndItCanBeCancelled)
+TEST(ThinHullFitting, OptionsOutOfRangeAreErrorsAndItCanBeCancelledAtAnyTime)
 {
   Execution execution;
   Covered covered(look(tube(0.02), 0, 5, 8, 150), unitCube(), 5, 0);
@@ -112,8 +112,16 @@ TEST(ThinHullFitting, OptionsOutOfRangeAreErrorsAndItCanBeCancelled)
   const ThinSurface thin{ covered.labels, covered.labels.octree(), covered.added, covered.shell, covered.surface, false };
   Mesh mesh = covered.place(false);
   EXPECT_THROW(moveToThinHulls(hulls, thin, &depth, { 0.1, 0.5, 1.1 }, mesh, execution), InvalidInput);
-  CancelledExecution cancelled;
-  EXPECT_THROW(moveToThinHulls(hulls, thin, &depth, {}, mesh, cancelled), Cancelled);
+  StoppedAt never(1 << 30);
+  Mesh moved = mesh;
+  moveToThinHulls(hulls, thin, &depth, {}, moved, never);
+  EXPECT_GE(never.asked(), 24);
+  for (int last = 0; last < never.asked(); ++last)
+  {
+    StoppedAt stopped(last);
+    moved = mesh;
+    EXPECT_THROW(moveToThinHulls(hulls, thin, &depth, {}, moved, stopped), Cancelled) << last;
+  }
   ProgressExecution progress;
   moveToThinHulls(hulls, thin, &depth, {}, mesh, progress);
   EXPECT_TRUE(progress.Monotone);

@@ -57,6 +57,15 @@ LabelledSolid randomBalls(int depth, int count, int seed)
     });
 }
 
+/** Depth 4: a share of the corners, any of them. */
+LabelledSolid noise(double share, int seed)
+{
+  Random random(seed);
+  std::vector<double> drawn(4096);
+  std::generate(drawn.begin(), drawn.end(), [&] { return random.uniform(); });
+  return LabelledSolid(4, [&](const LatticePoint& p) { return std::max({ p.i, p.j, p.k }) < 16 ? share - drawn[std::size_t(p.i + 16 * (p.j + 16 * p.k))] : -1.0; });
+}
+
 /** tunnelWalls(): one narrow point after another, what is connected flooded anew for each, and all that is left grouped anew for each wall opened. */
 class OneByOne
 {
@@ -288,11 +297,7 @@ TEST(TunnelFilling, OpensLongWallsAsIfAllWereGroupedAnewForEach)
   std::size_t filled = 0, openings = 0;
   for (int trial = 0; trial < 6; ++trial)
   {
-    Random random(trial);
-    std::vector<double> noise(4096);
-    std::generate(noise.begin(), noise.end(), [&] { return random.uniform(); });
-    LabelledSolid solid(4,
-      [&](const LatticePoint& p) { return std::max({ p.i, p.j, p.k }) < 16 ? 0.17 + 0.02 * trial - noise[std::size_t(p.i + 16 * (p.j + 16 * p.k))] : -1.0; });
+    LabelledSolid solid = noise(0.17 + 0.02 * trial, trial);
     const double loop = 0.8 + 0.2 * (trial % 4);
     const auto walls = tunnelWalls(*solid.labels, { true, 2 + trial % 3, loop }, solid.execution);
     OneByOne other(solid, 2 + trial % 3);
@@ -302,6 +307,23 @@ TEST(TunnelFilling, OpensLongWallsAsIfAllWereGroupedAnewForEach)
   }
   EXPECT_GT(filled, 20u);
   EXPECT_GT(openings, 50u);
+}
+
+TEST(TunnelFilling, CanBeCancelledAtAnyTimeAndTellsItsProgress)
+{
+  LabelledSolid solid = noise(0.25, 4);
+  StoppedAt never(1 << 30);
+  tunnelWalls(*solid.labels, { true, 3, 0.7 }, never);
+  EXPECT_GE(never.asked(), 10);
+  for (int last = 0; last < never.asked(); ++last)
+  {
+    StoppedAt stopped(last);
+    EXPECT_THROW(tunnelWalls(*solid.labels, { true, 3, 0.7 }, stopped), Cancelled) << last;
+  }
+  ProgressExecution progress;
+  tunnelWalls(*solid.labels, { true, 3, 0.7 }, progress);
+  EXPECT_TRUE(progress.Monotone);
+  EXPECT_EQ(progress.Last, 1.0);
 }
 
 TEST(TunnelFilling, FillsNarrowTunnelsAndNoOthers)
