@@ -4,6 +4,7 @@
 #include "Bits.h"
 #include "ChildNumbering.h"
 #include "FirstTouch.h"
+#include "LoneCarvers.h"
 #include "OctantTest.h"
 
 #include <algorithm>
@@ -353,32 +354,6 @@ std::vector<std::uint64_t> allTrees(int generation)
   return trees;
 }
 
-bool anySurvivor(const Octree& octree)
-{
-  for (int g = octree.treeGeneration; g <= octree.lattice.depth; ++g)
-  {
-    if (octree.count(OctantState::Inside, g) > 0)
-    {
-      return true;
-    }
-  }
-  return octree.count(OctantState::Intersection, octree.lattice.depth) > 0;
-}
-
-/** Would anything survive a coarse carve without view `left`? */
-bool survivesWithout(const LatticeViews& views, int left, int backgroundVotes)
-{
-  ViewList used = allViews(views.size());
-  used.erase(used.begin() + left);
-  Execution serial;
-  Octree octree;
-  octree.lattice = views.lattice();
-  octree.treeGeneration = treeGeneration(octree.lattice.depth);
-  Carver(views, used, std::min(backgroundVotes, int(used.size()) - 1), serial)
-    .grow(allTrees(octree.treeGeneration), octree);
-  return anySurvivor(octree);
-}
-
 /** Which view emptied it: an empty silhouette, else the views without any one of which something would be left. */
 [[noreturn]] void throwNothingSurvives(
   const LatticeViews& views, const Octree& octree, Execution& execution)
@@ -391,18 +366,12 @@ bool survivesWithout(const LatticeViews& views, int left, int backgroundVotes)
     }
   }
   std::string culprits;
-  if (views.size() > 1)
+  const std::vector<bool> lone = loneCarvers(views.prepared(), views.lattice(), octree.backgroundVotes, execution);
+  for (int i = 0; i < views.size(); ++i)
   {
-    Lattice coarse = views.lattice();
-    coarse.depth = std::min(coarse.depth, 5);
-    const LatticeViews coarseViews(views.prepared(), coarse);
-    for (int i = 0; i < views.size(); ++i)
+    if (lone[std::size_t(i)])
     {
-      execution.checkpoint(1.0);
-      if (survivesWithout(coarseViews, i, octree.backgroundVotes))
-      {
-        culprits += (culprits.empty() ? "" : ", ") + describeView(std::size_t(i), views.view(i).name);
-      }
+      culprits += (culprits.empty() ? "" : ", ") + describeView(std::size_t(i), views.view(i).name);
     }
   }
   const auto& carved = octree.statistics.carvedByView;
@@ -434,6 +403,18 @@ void check(const LatticeViews& views, const CarveOptions& options)
 }
 
 } // namespace
+
+bool anySurvivor(const Octree& octree)
+{
+  for (int g = octree.treeGeneration; g <= octree.lattice.depth; ++g)
+  {
+    if (octree.count(OctantState::Inside, g) > 0)
+    {
+      return true;
+    }
+  }
+  return octree.count(OctantState::Intersection, octree.lattice.depth) > 0;
+}
 
 int treeGeneration(int depth)
 {

@@ -28,9 +28,12 @@ struct CarveOptions
 /** Generation of the tree roots for a depth: min(3, depth - 1). */
 int treeGeneration(int depth);
 
+/** Is any octant not background? */
+bool anySurvivor(const Octree& octree);
+
 /**
  * Carve `views`. Throws InvalidInput (depth or votes out of range), Cancelled, and NothingSurvives where no
- * octant of the whole root cube survives: its message names the view that carved most.
+ * octant of the whole root cube survives: its message names the views without one of which something would, or the one that carved most.
  */
 Octree carve(const LatticeViews& views, const CarveOptions& options, Execution& execution);
 

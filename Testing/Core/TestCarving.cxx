@@ -286,6 +286,33 @@ TEST(Carving, NothingSurvivesNamesTheViewThatEmptiedIt)
   EXPECT_NE(message.find("something would be left without view 5 (v5)"), std::string::npos) << message;
 }
 
+/** A rod that one view of two along each axis sees elsewhere: coarse octants hold both places, and would survive without any one view as well as with all. */
+TEST(Carving, NothingSurvivesNamesNoViewForWhatIsOnlyCoarse)
+{
+  constexpr int Size = 300;
+  const auto cameras = axisCameras(100.0, Size);
+  std::vector<View> views;
+  for (int n = 0; n < 6; ++n)
+  {
+    BinaryImage image{ Size, Size, std::vector<std::uint8_t>(Size * Size, 0) };
+    const int first = n == 4 ? 154 : 151, side = 2;
+    for (int row = 151; row < 151 + side; ++row)
+    {
+      std::fill(&image.at(first, row), &image.at(first, row) + side, std::uint8_t(1));
+    }
+    views.push_back({ "v" + std::to_string(n), cameras[std::size_t(n % 3)], image });
+  }
+  EXPECT_GT(survivorsOf(carveViews(prepareViews(views), unitCube(), 5)), 0u);
+  const std::string message = carveMessage(views, 8, 0);
+  EXPECT_NE(message.find("something would be left without view 4 (v4). Check"), std::string::npos) << message;
+  for (std::size_t n = 0; n < views.size(); ++n) // and it is true
+  {
+    auto others = views;
+    others.erase(others.begin() + std::ptrdiff_t(n));
+    EXPECT_EQ(carveMessage(others, 8, 0).empty(), n == 4) << n;
+  }
+}
+
 TEST(Carving, StopsWhenAskedAndReportsMonotoneProgress)
 {
   const PreparedViews prepared = prepareViews(torusViews());
