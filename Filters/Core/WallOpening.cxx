@@ -152,9 +152,9 @@ public:
     , WallOf(points.size(), Settled)
     , SideOf(points.size(), 0)
   {
-    for (std::vector<std::uint64_t>& wall : pointComponents(points, Steps::Corners, 1))
+    for (PointComponent& wall : pointComponents(points, {}, Steps::Corners, 1))
     {
-      this->add(std::move(wall));
+      this->add(std::move(wall.points));
     }
   }
 
