@@ -34,13 +34,21 @@ struct CellBox
   }
 };
 
-/** The Morton codes, ascending, of the cells of all boxes' CellBox. Cost: n log n in these. */
+/** The Morton codes, ascending, of the cells of all boxes' CellBox. Cost: n log n in these; boxes that are listed near one another should lie so, too. */
 inline std::vector<std::uint64_t> cellsMet(const Lattice& lattice, const std::vector<Box>& boxes)
 {
+  constexpr std::size_t Together = 1024; // boxes whose cells are sorted at a time: most of them are those of several
   std::vector<std::uint64_t> cells;
-  for (const Box& box : boxes)
+  std::ptrdiff_t sorted = 0;
+  for (std::size_t n = 0; n < boxes.size(); ++n)
   {
-    const CellBox range(lattice, box);
+    if (n % Together == 0)
+    {
+      std::sort(cells.begin() + sorted, cells.end());
+      cells.erase(std::unique(cells.begin() + sorted, cells.end()), cells.end());
+      sorted = std::ptrdiff_t(cells.size());
+    }
+    const CellBox range(lattice, boxes[n]);
     for (std::int32_t k = range.first[2]; k <= range.last[2]; ++k)
     {
       for (std::int32_t j = range.first[1]; j <= range.last[1]; ++j)
