@@ -169,6 +169,18 @@ inline PreparedViews prepareViews(const std::vector<View>& views, OutsidePolicy 
   return PreparedViews(views, options, execution);
 }
 
+/** A torus whose silhouettes are disturbed four times over: many of its octants are lost. */
+inline PreparedViews disturbedTorus(std::uint64_t seed)
+{
+  Random random(seed);
+  auto captured = viewsOf(torusMesh(48, 24, 0.75, 0.2), swayingRing(9, 100), 100);
+  for (int n = 0; n < 4; ++n)
+  {
+    disturb(captured, 1, random);
+  }
+  return prepareViews(captured);
+}
+
 inline RootCube unitCube(double half = 1.3)
 {
   return { Vector3::Constant(-half), 2 * half };

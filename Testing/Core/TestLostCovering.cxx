@@ -196,13 +196,7 @@ TEST(LostCovering, OfNoneLabelsNothing)
 TEST(LostCovering, CanBeCancelledAtAnyTime)
 {
   Execution execution;
-  Random random(3);
-  auto captured = viewsOf(torusMesh(48, 24, 0.75, 0.2), swayingRing(9, 100), 100);
-  for (int n = 0; n < 4; ++n)
-  {
-    disturb(captured, 1, random);
-  }
-  const PreparedViews views = prepareViews(captured);
+  const PreparedViews views = disturbedTorus(3);
   const Octree octree = carveViews(views, unitCube(), 5);
   const LatticeLabels labels(octree, makeCornerShell(leafCells(octree, OctantState::Intersection), execution), views, execution);
   const auto lost = lostCells(labels);

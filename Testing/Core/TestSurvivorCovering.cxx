@@ -94,13 +94,7 @@ TEST(SurvivorCovering, SaysWhetherItMayHaveEnclosedACavity)
 TEST(SurvivorCovering, CanBeCancelledAtAnyTime)
 {
   Execution execution;
-  Random random(4);
-  auto captured = viewsOf(torusMesh(48, 24, 0.75, 0.2), swayingRing(9, 100), 100);
-  for (int n = 0; n < 4; ++n)
-  {
-    disturb(captured, 1, random);
-  }
-  const PreparedViews views = prepareViews(captured);
+  const PreparedViews views = disturbedTorus(4);
   const Octree octree = carveViews(views, unitCube(), 5);
   const LatticeLabels labels(octree, makeCornerShell(leafCells(octree, OctantState::Intersection), execution), views, execution);
   LatticeLabels covered = labels;
