@@ -48,7 +48,7 @@ void checkMorphology(const std::vector<MorphologyOperation>& operations)
     {
       throw InvalidInput(std::string(nameOf(operation.kind)) + ": with radius " +
                          std::to_string(operation.radius) + " the morphology reaches " +
-                         std::to_string(reach) + " pixels; at most " +
+                         std::to_string(reach) + " pixels, opening and closing counted twice; at most " +
                          std::to_string(LargestMorphologyReach) + " are allowed");
     }
   }

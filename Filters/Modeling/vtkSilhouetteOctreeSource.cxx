@@ -29,7 +29,7 @@ class vtkSilhouetteOctreeSource::vtkInternals
 {
 public:
   std::vector<ImageView> Added;
-  FoundTolerance Tolerance; ///< of the piece that was carved last
+  FoundTolerance Tolerance; ///< what the last whole left for the pieces after it
 
   /** The views of the input, then those added. */
   std::vector<ImageView> views(vtkPartitionedDataSetCollection* input) const

@@ -111,7 +111,7 @@ TEST(ExtractionOptions, ValidateMorphology)
                 [](auto& o) {
                   o.morphology = {{Kind::Closing, 300}, {Kind::Opening, 201}};
                 }),
-            "opening: with radius 201 the morphology reaches 1002 pixels; at most 1000 are allowed");
+            "opening: with radius 201 the morphology reaches 1002 pixels, opening and closing counted twice; at most 1000 are allowed");
   ExtractionOptions options;
   options.morphology = {{Kind::Closing, 300}, {Kind::Opening, 200}, {Kind::Erode, 0}};
   validate(options);

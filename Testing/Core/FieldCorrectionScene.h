@@ -6,6 +6,7 @@
 
 #include "CarvingTestCaptures.h"
 #include "FieldCorrection.h"
+#include "MeshDistance.h"
 #include "SyntheticCapture.h"
 #include "SyntheticShapes.h"
 
@@ -139,5 +140,12 @@ struct Corrected
   Mesh exact;
   FieldCorrection correction;
 };
+
+/** Mean distance from a mesh to the hull, octants. */
+inline double errorOf(const Mesh& mesh, const Mesh& hull, const Lattice& lattice)
+{
+  Execution execution;
+  return meshDistance(mesh, hull, lattice.leafEdge(), execution).mean / lattice.leafEdge();
+}
 
 } // namespace silhouette::test

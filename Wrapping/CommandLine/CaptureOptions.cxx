@@ -2,6 +2,7 @@
 #include "CaptureOptions.h"
 
 #include "Arguments.h"
+#include "Error.h"
 #include "ExtractionOptions.h"
 
 #include "vtkSilhouetteCaptureReader.h"
@@ -129,17 +130,18 @@ void CaptureOptions::finish()
 
 void CaptureOptions::checkReach() const
 {
-  int reach = 0;
+  ExtractionOptions asked;
   for (const auto& [operation, radius] : this->Morphology)
   {
-    const bool twice = operation == vtkSilhouetteExtractor::OPENING || operation == vtkSilhouetteExtractor::CLOSING;
-    reach += twice ? 2 * radius : radius;
-    if (reach > LargestMorphologyReach)
-    {
-      throw CLI::ValidationError(OperationNames[operation], "with radius " + std::to_string(radius) +
-          " the morphology reaches " + std::to_string(reach) + " pixels, opening and closing counted twice; at most " +
-          std::to_string(LargestMorphologyReach) + " are allowed");
-    }
+    asked.morphology.push_back({ static_cast<MorphologyKind>(operation), radius });
+  }
+  try
+  {
+    validate(asked);
+  }
+  catch (const InvalidInput& error)
+  {
+    throw CLI::ValidationError("--" + std::string(error.what()));
   }
 }
 
