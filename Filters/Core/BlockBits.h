@@ -100,6 +100,24 @@ template <typename CellsOf> std::array<std::uint64_t, 8> cellsBehind(std::uint64
   return words;
 }
 
+/**
+ * From the points of a block and of those ahead of it on the axes of their numbers, 0 to 7: for each n which points of the block have one of these at the point plus
+ * cornerOffset(n), as cells have corners.
+ */
+inline void bringCorners(std::array<std::uint64_t, 8>& words)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (unsigned n = 0; n < 8; ++n)
+    {
+      if (n >> axis & 1)
+      {
+        words[n] = fromAhead(words[n ^ 1u << axis], words[n], axis);
+      }
+    }
+  }
+}
+
 /** The points of a block that are corners of cells. */
 template <typename CellsOf> std::uint64_t pointsTouching(std::uint64_t block, const CellsOf& cellsOf)
 {

@@ -51,17 +51,8 @@ public:
       return 0;
     }
     std::uint64_t all = ~std::uint64_t(0), any = 0, allKnown = ~std::uint64_t(0);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      for (std::size_t corner = 0; corner < 8; ++corner)
-      {
-        if (corner >> axis & 1)
-        {
-          signs[corner] = fromAhead(signs[corner ^ std::size_t(1) << axis], signs[corner], axis);
-          known[corner] = fromAhead(known[corner ^ std::size_t(1) << axis], known[corner], axis);
-        }
-      }
-    }
+    bringCorners(signs);
+    bringCorners(known);
     for (std::size_t corner = 0; corner < 8; ++corner)
     {
       all &= signs[corner];

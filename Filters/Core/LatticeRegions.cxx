@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <set>
 
 namespace silhouette
@@ -51,6 +52,38 @@ void fillPart(LatticeLabels& labels, std::uint64_t block, std::uint64_t points, 
       octants.emplace(octant.generation, octant.index);
     }
   }
+}
+
+/** The sets with parts in blocks, but for those that hold a corner of one of some cells. Most hold one of the first cells that they touch. */
+Sets setsWithout(const std::vector<std::uint64_t>& cells, BlockRegions& regions)
+{
+  const auto cellsOf = [&](std::uint64_t block)
+  {
+    std::uint64_t bits = 0;
+    for (auto at = std::lower_bound(cells.begin(), cells.end(), block << 6); at != cells.end() && *at >> 6 == block; ++at)
+    {
+      bits |= std::uint64_t(1) << (*at & 63);
+    }
+    return bits;
+  };
+  Sets without;
+  std::vector<std::uint8_t> holdsAny(regions.size(), 0);
+  for (std::size_t block = 0; block < regions.blocks().size(); ++block)
+  {
+    std::optional<std::uint64_t> corners;
+    for (std::uint32_t part = regions.firstPart(block); part < regions.firstPart(block + 1); ++part)
+    {
+      const std::uint32_t set = regions.find(part);
+      if (holdsAny[set] != 0)
+      {
+        continue;
+      }
+      corners = corners ? corners : pointsTouching(regions.blocks()[block], cellsOf);
+      holdsAny[set] = (regions.part(part) & *corners) != 0;
+      holdsAny[set] != 0 ? without.erase(set) : without.insert(set).second;
+    }
+  }
+  return without;
 }
 
 /** Take out of `sets` those of the inside octants that no field contradicts: the smallest at none of their corners, larger ones not at all of them. */
@@ -181,42 +214,28 @@ std::uint64_t fillCavities(LatticeLabels& labels, Execution& execution)
   return cavities.size();
 }
 
-std::uint64_t dropUnsupported(LatticeLabels& labels, Execution& execution)
+std::vector<std::uint64_t> unsupportedPoints(const LatticeLabels& labels, const std::vector<std::uint64_t>& cells, Execution& execution)
 {
   BlockRegions regions = connectRegions(labels, true, execution);
-  const auto& shell = labels.shell();
-  Sets unsupported;
-  std::vector<std::uint32_t> numbers = regions.numbersOf(shell.corners, execution);
-  for (std::uint32_t& number : numbers)
-  {
-    if (number != BlockRegions::None)
-    {
-      number = regions.find(number);
-      unsupported.insert(number);
-    }
-  }
-  for (std::size_t cell = 0; cell < shell.cells.size() && !unsupported.empty(); ++cell)
-  {
-    for (const std::uint32_t corner : shell.cellCorners[cell])
-    {
-      if (labels.isSurvivor(cell) && labels.inside()[corner])
-      {
-        unsupported.erase(numbers[corner]);
-      }
-    }
-  }
+  Sets unsupported = setsWithout(cells, regions);
   if (!unsupported.empty())
   {
     removeSupported(labels, regions, unsupported);
   }
-  for (std::size_t c = 0; c < shell.corners.size() && !unsupported.empty(); ++c)
+  std::vector<std::uint64_t> points;
+  for (std::size_t block = 0; block < regions.blocks().size() && !unsupported.empty(); ++block)
   {
-    if (labels.inside()[c] && unsupported.count(numbers[c]))
+    std::uint64_t ofBlock = 0;
+    for (std::uint32_t part = regions.firstPart(block); part < regions.firstPart(block + 1); ++part)
     {
-      labels.setOutside(c);
+      ofBlock |= unsupported.count(regions.find(part)) != 0 ? regions.part(part) : 0;
+    }
+    for (; ofBlock != 0; ofBlock &= ofBlock - 1)
+    {
+      points.push_back(regions.blocks()[block] << 6 | std::uint64_t(lowestBit(ofBlock)));
     }
   }
-  return unsupported.size();
+  return points;
 }
 
 BlockRegions connectSurvivors(const Octree& octree, Execution& execution)

@@ -40,8 +40,11 @@ private:
 /** Label the cavities, outside regions that do not reach the world beyond, inside; returns their number. */
 std::uint64_t fillCavities(LatticeLabels& labels, Execution& execution);
 
-/** Label inside regions that hold neither a corner of a survivor nor an inside octant outside; returns their number. */
-std::uint64_t dropUnsupported(LatticeLabels& labels, Execution& execution);
+/**
+ * The points (Morton codes, ascending) of inside regions that hold neither a corner of one of some leaf cells (Morton codes, ascending) nor an inside octant
+ * that no field contradicts.
+ */
+std::vector<std::uint64_t> unsupportedPoints(const LatticeLabels& labels, const std::vector<std::uint64_t>& cells, Execution& execution);
 
 /** Regions of the leaf cells of survivors: of the last generation's intersection and all inside octants, in the 26-neighbourhood. */
 BlockRegions connectSurvivors(const Octree& octree, Execution& execution);

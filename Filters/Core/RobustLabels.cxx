@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <numeric>
 
 namespace silhouette
 {
@@ -33,11 +34,8 @@ void carveAgain(const Octree& octree, CorrectedCapture& capture, Execution& exec
   capture.surface = votingMarchingCubes(*capture.recarved, *capture.repaired, voting, second).mesh;
 }
 
-/**
- * Cells of the field's bricks that lie inside by the field and in a background octant, or outside by the field and in
- * an inside octant.
- */
-std::vector<std::uint64_t> disputedCells(const Octree& octree, const BrickField& field, Execution& execution)
+/** Cells of the field's bricks that lie outside by the field and in an inside octant. */
+std::vector<std::uint64_t> contradictedCells(const Octree& octree, const BrickField& field, Execution& execution)
 {
   std::vector<std::vector<std::uint64_t>> found(field.bricks().size());
   execution.forRanges(found.size(), 8,
@@ -46,13 +44,12 @@ std::vector<std::uint64_t> disputedCells(const Octree& octree, const BrickField&
       OctantCursor octants(octree);
       for (std::size_t n = first * BrickField::BrickPoints; n < last * BrickField::BrickPoints; n += 64)
       {
-        const std::uint64_t block = field.code(n) >> 6, inside = positiveBits(&field.values()[n]);
-        const auto in = [&](OctantState state)
-        { return octants.cellsOfBlock(block, [state](const Octree::Location& octant) { return octant.state == state; }); };
+        const std::uint64_t block = field.code(n) >> 6, outside = ~positiveBits(&field.values()[n]);
         // Most blocks are alike, and what they are not need not be asked.
-        const std::uint64_t disputed =
-          (inside != 0 ? inside & in(OctantState::Background) : 0) | (~inside != 0 ? ~inside & in(OctantState::Inside) : 0);
-        for (std::uint64_t left = disputed; left != 0; left &= left - 1)
+        const std::uint64_t contradicted = outside == 0
+          ? 0
+          : outside & octants.cellsOfBlock(block, [](const Octree::Location& octant) { return octant.state == OctantState::Inside; });
+        for (std::uint64_t left = contradicted; left != 0; left &= left - 1)
         {
           const std::uint64_t cell = 64 * block + std::uint64_t(lowestBit(left));
           if (octree.lattice.hasCell(fromMorton(cell)))
@@ -163,11 +160,85 @@ std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLa
   return cells;
 }
 
-LatticeLabels makeLabels(const Octree& octree, CornerShell shell, const PreparedViews& views, const CorrectedCapture& capture,
-  Execution& execution)
+/** Label those of some points outside that are corners of the shell. */
+void labelOutside(LatticeLabels& labels, const std::vector<std::uint64_t>& points)
 {
-  return capture.correction.field ? LatticeLabels(octree, std::move(shell), *capture.correction.field, execution)
-                                  : LatticeLabels(octree, std::move(shell), views, execution);
+  for (const std::uint64_t point : points)
+  {
+    const std::ptrdiff_t corner = labels.shell().find(point);
+    if (corner >= 0)
+    {
+      labels.setOutside(std::size_t(corner));
+    }
+  }
+}
+
+/** The cells of a block, a bit each, that have all of their corners inside. */
+std::uint64_t cellsInside(std::uint64_t block, const LatticeLabels& labels)
+{
+  std::array<std::uint64_t, 8> corners{};
+  for (unsigned n = 0; n < 8; ++n)
+  {
+    std::uint64_t other = block;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (n >> axis & 1)
+      {
+        besideBlock(other, axis, true, other);
+      }
+    }
+    corners[n] = labels.insideOfBlock(other);
+  }
+  bringCorners(corners);
+  return std::accumulate(corners.begin(), corners.end(), ~std::uint64_t(0), std::bit_and<std::uint64_t>());
+}
+
+/** Those of some cells (Morton codes, ascending) that have a corner outside. */
+std::vector<std::uint64_t> cellsWithOutside(const std::vector<std::uint64_t>& cells, const LatticeLabels& labels, Execution& execution)
+{
+  const auto makeTest = [&]
+  {
+    return [&, block = ~std::uint64_t(0), whole = std::uint64_t(0)](std::size_t n) mutable
+    {
+      if (cells[n] >> 6 != block)
+      {
+        block = cells[n] >> 6;
+        whole = cellsInside(block, labels);
+      }
+      return (whole >> (cells[n] & 63) & 1) == 0;
+    };
+  };
+  std::vector<std::uint64_t> some;
+  for (const std::int32_t n : indicesWhereTests(cells.size(), 4096, execution, makeTest))
+  {
+    some.push_back(cells[std::size_t(n)]);
+  }
+  return some;
+}
+
+/**
+ * Labels by a field, which tells about all points: the shell needs only the cells where something is to be contoured or covered, none that has all of its corners
+ * inside.
+ */
+LatticeLabels labelsByField(const Octree& octree, const std::vector<std::uint64_t>& intersection, const std::vector<std::uint64_t>& points,
+  const CorrectedCapture& capture, Execution& execution)
+{
+  const Octree& base = capture.recarved ? *capture.recarved : octree;
+  const BrickField& field = *capture.correction.field;
+  const LatticeLabels everywhere(base, CornerShell(), field, execution);
+  const auto survivors = united(intersection, disownedOctants(octree, everywhere, execution));
+  std::vector<std::uint64_t> cells = united(survivors, contradictedCells(base, field, execution));
+  if (capture.recarved)
+  {
+    cells = united(cells, leafCells(base, OctantState::Intersection, execution));
+  }
+  const auto unsupported = unsupportedPoints(everywhere, survivors, execution);
+  cells = united(cellsWithOutside(cells, everywhere, execution), field.mixedCells(execution));
+  cells = united(cells, cellsAround(united(points, unsupported), execution));
+  LatticeLabels labels(base, makeCornerShell(cells, execution), field, execution);
+  labels.setSurvivors(survivors, execution);
+  labelOutside(labels, unsupported);
+  return labels;
 }
 
 } // namespace
@@ -222,38 +293,30 @@ CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, con
 LatticeLabels correctedLabels(const Octree& octree, CornerShell shell, const std::vector<std::uint64_t>& points,
   const PreparedViews& views, const CorrectedCapture& capture, Execution& execution)
 {
-  const Octree& base = capture.recarved ? *capture.recarved : octree;
-  const PreparedViews& used = capture.repaired ? *capture.repaired : views;
-  if (!capture.recarved && !capture.correction.field)
+  if (capture.correction.field)
+  {
+    return labelsByField(octree, shell.cells, points, capture, execution);
+  }
+  if (!capture.recarved)
   {
     if (points.empty() && capture.votes && capture.votes->size() == shell.corners.size())
     {
       return LatticeLabels(octree, std::move(shell), *capture.votes, execution);
     }
-    return makeLabels(octree, points.empty() ? std::move(shell) : extendedShell(shell, points, execution), views, capture, execution);
+    return LatticeLabels(octree, points.empty() ? std::move(shell) : extendedShell(shell, points, execution), views, execution);
   }
-  std::vector<std::uint64_t> survivors = shell.cells;
-  std::vector<std::uint64_t> cells = std::move(shell.cells);
-  if (capture.recarved)
-  {
-    cells = united(cells, leafCells(base, OctantState::Intersection, execution));
-  }
-  if (const auto& field = capture.correction.field)
-  {
-    cells = united(united(cells, field->mixedCells(execution)), disputedCells(base, *field, execution));
-  }
-  cells = united(cells, cellsAround(points, execution));
-  // A field tells about all corners, votes about those of a shell.
-  const bool isByField = capture.correction.field.has_value();
-  LatticeLabels labels = makeLabels(base, isByField ? CornerShell() : makeCornerShell(cells, execution), used, capture, execution);
+  const Octree& base = *capture.recarved;
+  std::vector<std::uint64_t> survivors = std::move(shell.cells);
+  const auto cells = united(united(survivors, leafCells(base, OctantState::Intersection, execution)), cellsAround(points, execution));
+  LatticeLabels labels(base, makeCornerShell(cells, execution), *capture.repaired, execution);
   const auto disowned = disownedOctants(octree, labels, execution);
-  if (isByField || !disowned.empty())
+  if (!disowned.empty())
   {
     survivors = united(survivors, disowned);
-    labels = makeLabels(base, makeCornerShell(united(cells, disowned), execution), used, capture, execution);
+    labels = LatticeLabels(base, makeCornerShell(united(cells, disowned), execution), *capture.repaired, execution);
   }
   labels.setSurvivors(survivors, execution);
-  dropUnsupported(labels, execution);
+  labelOutside(labels, unsupportedPoints(labels, survivors, execution));
   return labels;
 }
 
