@@ -9,6 +9,7 @@ namespace
 {
 
 constexpr double NearShare = 1.0 / 3.0; ///< of the smallest deficit that counts; from a half on, a shift counts as well
+constexpr double SureOfChance = 2.0;    ///< times the share of chance that tells contour noise from wrong cameras
 
 TypicalShift typicalShift(const std::vector<ContourResidual>& residuals, const std::vector<int>& views, const FieldViews& fieldViews)
 {
@@ -28,6 +29,14 @@ TypicalShift typicalShift(const std::vector<ContourResidual>& residuals, const s
   return typical;
 }
 
+/** Do enough views tell that their shifts are by chance? */
+bool isByChance(const FieldViews& fieldViews, const std::vector<int>& views, std::vector<ContourResidual> residuals, double shiftNoise)
+{
+  const auto saying = std::count_if(residuals.begin(), residuals.end(), [](const ContourResidual& residual) { return residual.count > 0; });
+  removeCommonShift(fieldViews, views, residuals);
+  return saying >= ViewsToJudgeBy && noiseShare(residuals) > SureOfChance * shiftNoise;
+}
+
 } // namespace
 
 std::vector<int> everyThirdView(int views)
@@ -40,7 +49,7 @@ std::vector<int> everyThirdView(int views)
   return some;
 }
 
-ContourDeficit::ContourDeficit(const FieldViews& fieldViews, const Mesh& surface, double limit, double smallest, Execution& execution)
+ContourDeficit::ContourDeficit(const FieldViews& fieldViews, const Mesh& surface, double limit, double smallest, double shiftNoise, Execution& execution)
 {
   const std::vector<int> some = everyThirdView(fieldViews.size());
   this->residuals.resize(some.size());
@@ -63,7 +72,8 @@ ContourDeficit::ContourDeficit(const FieldViews& fieldViews, const Mesh& surface
     }
   };
   measure(false);
-  if (some.size() > 2 && typicalResidual(this->residuals) >= NearShare * smallest)
+  if (some.size() > 2 && typicalResidual(this->residuals) >= NearShare * smallest &&
+    !isByChance(fieldViews, some, this->residuals, shiftNoise))
   {
     measure(true);
   }

@@ -14,6 +14,8 @@
 namespace silhouette
 {
 
+constexpr int ViewsToJudgeBy = 6; ///< whether cameras are wrong; fewer may be so by chance
+
 /** 0, 3, 6, ...: the views that tell how wrong all are. */
 std::vector<int> everyThirdView(int views);
 
@@ -33,9 +35,10 @@ struct ContourDeficit
   ContourDeficit() = default;
   /**
    * `limit`: px of an octant, as contourResiduals() has it. Half of the views come first, by pairs, so that of two cameras which take turns both are among them: where they say less than a
-   * third of `smallest`, octants, the others are not asked. Cost: contourResiduals() of every third view, or of every sixth.
+   * third of `smallest`, octants, the others are not asked; nor where chance explains more than twice `shiftNoise` of the squares of their shifts, since contour noise is in all views alike.
+   * Cost: contourResiduals() of every third view, or of every sixth.
    */
-  ContourDeficit(const FieldViews& fieldViews, const Mesh& surface, double limit, double smallest, Execution& execution);
+  ContourDeficit(const FieldViews& fieldViews, const Mesh& surface, double limit, double smallest, double shiftNoise, Execution& execution);
 };
 
 } // namespace silhouette

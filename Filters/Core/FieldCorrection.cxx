@@ -25,7 +25,6 @@ namespace
 constexpr std::size_t BlockPoints = FieldViews::BlockPoints;
 constexpr double FinestShift = 0.1; ///< px: the contours of clean silhouettes seem shifted by up to two thirds of this
 constexpr int MostAlignments = 100;
-constexpr std::size_t ViewsToJudgeBy = 6; ///< whether cameras are wrong; fewer may be so by chance
 /**
  * How far a round's shifts are gone: a first round leaves about a fifth of them, later ones half of what there is, since the surface, the least of all views', follows the
  * wrong ones.
@@ -190,7 +189,7 @@ private:
   bool align(const std::vector<ContourResidual>& measured, Execution& execution)
   {
     std::vector<ContourResidual> some = measured;
-    if (some.size() >= ViewsToJudgeBy && !this->tellsOfCameras(this->Some, some))
+    if (some.size() >= std::size_t(ViewsToJudgeBy) && !this->tellsOfCameras(this->Some, some))
     {
       return false;
     }
@@ -450,7 +449,7 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
   }
   const Lengths lengths(lattice);
   FieldViews fieldViews(views, lattice, lengths.reach());
-  const ContourDeficit measured(fieldViews, surface, lengths.limit(), options.smallestDeficit, execution);
+  const ContourDeficit measured(fieldViews, surface, lengths.limit(), options.smallestDeficit, options.shiftNoise, execution);
   result.deficit = measured.octants;
   result.shift = measured.shift.octants;
   execution.checkpoint(0.3);
