@@ -14,7 +14,7 @@ namespace silhouette
 namespace
 {
 
-/** Where a field is positive, by blocks of 4 x 4 x 4 points: eight of each brick, a bit a point. */
+/** Where a field is positive and not on the root cube's border, by blocks of 4 x 4 x 4 points: eight of each brick, a bit a point. */
 class BlockSigns
 {
 public:
@@ -27,7 +27,7 @@ public:
       {
         for (std::size_t block = first; block < last; ++block)
         {
-          this->Positive[block] = positiveBits(&field.values()[64 * block]);
+          this->Positive[block] = positiveBits(&field.values()[64 * block]) & withinBorder(field.lattice(), field.code(64 * block) / 64);
         }
       });
   }
@@ -260,7 +260,7 @@ Mesh BrickField::contourMesh(Execution& execution) const
       for (std::size_t c = first; c < last; ++c)
       {
         value[c] = this->Values[this->find(shell.corners[c])];
-        inside[c] = value[c] > 0.0f;
+        inside[c] = value[c] > 0.0f && !this->TheLattice.onBorder(fromMorton(shell.corners[c]));
       }
     });
   const LatticeSurface surface = contour(shell, inside, execution);

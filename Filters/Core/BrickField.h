@@ -48,7 +48,7 @@ public:
   /** Index of a point, or -1. */
   std::ptrdiff_t find(std::uint64_t point) const;
 
-  /** Codes of the leaf cells that have corners of both signs, ascending; a value of 0 is outside. */
+  /** Codes of the leaf cells that have corners of both signs, ascending; a value of 0 is outside, and so is every point on the root cube's border. */
   std::vector<std::uint64_t> mixedCells(Execution& execution) const;
   /** The surface where the field is 0, by marching cubes with linear interpolation. */
   Mesh contourMesh(Execution& execution) const;

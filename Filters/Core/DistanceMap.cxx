@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace silhouette
 {
@@ -93,13 +94,14 @@ DistanceFrame frameOf(const std::uint8_t* object, int width, int height, double 
 class DistanceTransform
 {
 public:
-  DistanceTransform(const std::uint8_t* object, const DistanceFrame& frame)
-    : Object(object)
-    , Map(frame)
-    , Limit(int(std::ceil(frame.reach)) + 1)
-    , Width(frame.lastColumn + 1)
-    , Columns(frame.spacing, this->Limit - 1, this->pieces())
+  /** Take an image, which is not copied, in the memory that the last one took. */
+  void begin(const std::uint8_t* object, const DistanceFrame& frame)
   {
+    this->Object = object;
+    this->Map = frame;
+    this->Limit = int(std::ceil(frame.reach)) + 1;
+    this->Width = frame.lastColumn + 1;
+    this->Columns = PieceColumns(frame.spacing, this->Limit - 1, this->pieces());
     this->sweepColumns();
   }
 
@@ -129,9 +131,15 @@ public:
   }
 
   /** All samples. */
-  void run(std::vector<float>& value)
+  void run(DistanceMap& map)
   {
-    value.reserve(std::size_t(this->Map.columns) * this->Map.rows); // written once
+    map.across = this->pieces();
+    map.pieces.reserve(std::size_t(map.across) * std::size_t(map.rows));
+    this->Values.clear();
+    for (const float far : { -this->Map.reach, this->Map.reach }) // what pieces of either kind are, if they are not mixed
+    {
+      this->Values.insert(this->Values.end(), std::size_t(PieceStride), far);
+    }
     this->Kinds.resize(std::size_t(this->pieces()));
     for (int row = 0; row < this->Map.rows; ++row)
     {
@@ -148,26 +156,38 @@ public:
       {
         this->squarePieces(row, first, last);
       }
-      for (int piece = 0; piece < this->pieces(); ++piece)
-      {
-        const std::size_t count = std::size_t(std::min(TileSize, this->Map.columns - piece * TileSize));
-        const std::uint8_t kind = this->Kinds[std::size_t(piece)];
-        if (kind == Mixed)
-        {
-          float distances[TileSize];
-          this->measurePieceOf(row, piece, distances);
-          value.insert(value.end(), distances, distances + count);
-        }
-        else
-        {
-          value.insert(value.end(), count, kind != 0 ? this->Map.reach : -this->Map.reach);
-        }
-      }
+      this->appendRow(row, map.pieces);
     }
+    map.values = this->Values; // and no more memory than that
   }
 
 private:
   static constexpr std::uint8_t Mixed = 2;
+  static constexpr int PieceStride = DistanceMap::PieceSize + 1;
+  static_assert(DistanceMap::PieceSize == TileSize, "they are measured in pieces, too");
+
+  /** The pieces of a row whose mixed ones have squares. */
+  void appendRow(int row, std::vector<std::uint32_t>& pieces)
+  {
+    const std::size_t before = pieces.size();
+    for (int piece = 0; piece < this->pieces(); ++piece)
+    {
+      const std::uint8_t kind = this->Kinds[std::size_t(piece)];
+      pieces.push_back(std::uint32_t(kind == Mixed ? this->Values.size() : std::size_t(kind) * PieceStride));
+      if (kind == Mixed)
+      {
+        this->Values.resize(this->Values.size() + PieceStride);
+        this->measurePieceOf(row, piece, &this->Values[pieces.back()]);
+      }
+    }
+    for (std::size_t n = before; n + 1 < pieces.size(); ++n)
+    {
+      if (this->Kinds[n - before] == Mixed)
+      {
+        this->Values[pieces[n] + TileSize] = this->Values[pieces[n + 1]];
+      }
+    }
+  }
 
   /** The pixels of a row; below the last one it goes on. */
   const std::uint8_t* row(int r) const
@@ -312,14 +332,15 @@ private:
     }
   }
 
-  const std::uint8_t* Object;
-  const DistanceFrame& Map;
-  int Limit;
-  int Width; ///< pixels of a row
-  PieceColumns Columns;
+  const std::uint8_t* Object = nullptr;
+  DistanceFrame Map;
+  int Limit = 0;
+  int Width = 0; ///< pixels of a row
+  PieceColumns Columns{ 1, 0, 0 };
   std::vector<std::uint8_t> Tiles;
   std::vector<std::int16_t> InColumn; ///< a row of pixels for each row of samples
   std::vector<std::uint8_t> Kinds;    ///< of a row's pieces
+  std::vector<float> Values;          ///< of the map's pieces
   int FirstPiece = 0;                 ///< that there are squares of
   RowSquares<std::int16_t> Short[2];
   RowSquares<std::int32_t> Long[2]; ///< for limits that are too long for the others
@@ -328,35 +349,31 @@ private:
 namespace
 {
 
-/** Mark those of a row's whole blocks that have a value below the reach. */
-SILHOUETTE_VECTORISED void markNear(const float* values, int blocks, float reach, std::int32_t* near)
+/** Is a value below the reach? */
+std::int32_t isAnyBelow(const float* values, int count, float reach)
 {
-  for (int block = 0; block < blocks; ++block)
+  std::int32_t below = 0;
+  for (int n = 0; n < count; ++n)
   {
-    std::int32_t below = 0;
-    for (int c = 0; c < BlockSize; ++c)
-    {
-      below |= values[block * BlockSize + c] < reach ? 1 : 0;
-    }
-    near[block] |= below;
+    below |= values[n] < reach ? 1 : 0;
   }
+  return below;
 }
 
 /** How many blocks are not wholly at the reach, summed over both directions. */
 void countBlocks(DistanceMap& map)
 {
+  static_assert(DistanceMap::PieceSize % BlockSize == 0, "a row of a block lies in one piece");
   const int across = (map.columns + BlockSize - 1) / BlockSize, down = (map.rows + BlockSize - 1) / BlockSize;
   const std::size_t stride = std::size_t(across) + 1;
   map.blocksNear.assign(stride * (std::size_t(down) + 1), 0);
   for (int r = 0; r < map.rows; ++r)
   {
-    const float* values = &map.value[std::size_t(r) * map.columns];
     std::int32_t* near = &map.blocksNear[(std::size_t(r / BlockSize) + 1) * stride + 1];
-    markNear(values, map.columns / BlockSize, map.reach, near);
-    if (map.columns % BlockSize != 0)
+    for (int block = 0; block < across; ++block)
     {
-      near[across - 1] |=
-        *std::min_element(values + map.columns / BlockSize * BlockSize, values + map.columns) < map.reach;
+      const int count = std::min(BlockSize, map.columns - block * BlockSize);
+      near[block] |= isAnyBelow(map.sample(r, block * BlockSize), count, map.reach);
     }
   }
   for (std::size_t n = stride + 1; n < map.blocksNear.size(); ++n)
@@ -373,7 +390,7 @@ void countBlocks(DistanceMap& map)
 bool DistanceMap::farInside(double firstU, double lastU, double firstV, double lastV) const
 {
   const double u = firstU - this->left, lastInU = lastU - this->left, v = firstV - this->top, lastInV = lastV - this->top;
-  if (this->value.empty() || !(u >= 0.0 && v >= 0.0 && lastInU < this->lastColumn && lastInV < this->lastRow))
+  if (this->empty() || !(u >= 0.0 && v >= 0.0 && lastInU < this->lastColumn && lastInV < this->lastRow))
   {
     return false;
   }
@@ -384,13 +401,23 @@ bool DistanceMap::farInside(double firstU, double lastU, double firstV, double l
   return this->blocksNear[d + b] - this->blocksNear[c + b] - this->blocksNear[d + a] + this->blocksNear[c + a] == 0;
 }
 
-DistanceMap distanceMap(const std::uint8_t* object, int width, int height, double reach, int spacing)
+DistanceMapper::DistanceMapper()
+  : Transform(std::make_unique<DistanceTransform>())
+{
+}
+
+DistanceMapper::~DistanceMapper() = default;
+DistanceMapper::DistanceMapper(DistanceMapper&&) noexcept = default;
+DistanceMapper& DistanceMapper::operator=(DistanceMapper&&) noexcept = default;
+
+DistanceMap DistanceMapper::map(const std::uint8_t* object, int width, int height, double reach, int spacing)
 {
   DistanceMap map;
   static_cast<DistanceFrame&>(map) = frameOf(object, width, height, reach, spacing);
   if (map.columns > 0)
   {
-    DistanceTransform(object, map).run(map.value);
+    this->Transform->begin(object, map);
+    this->Transform->run(map);
     countBlocks(map);
   }
   return map;
@@ -401,7 +428,8 @@ DistancesOnDemand::DistancesOnDemand(const std::uint8_t* object, int width, int 
 {
   if (this->Frame.columns > 0)
   {
-    this->Transform = std::make_unique<DistanceTransform>(object, this->Frame);
+    this->Transform = std::make_unique<DistanceTransform>();
+    this->Transform->begin(object, this->Frame);
     this->Known.assign(std::size_t(this->Frame.rows) * this->Transform->pieces(), -1);
   }
 }
@@ -433,7 +461,9 @@ DistanceProbe::DistanceProbe(const std::uint8_t* object, int width, int height, 
 {
   if (this->Frame.columns > 0)
   {
-    this->Transform = std::make_unique<const DistanceTransform>(object, this->Frame);
+    auto transform = std::make_unique<DistanceTransform>();
+    transform->begin(object, this->Frame);
+    this->Transform = std::move(transform);
   }
 }
 

@@ -54,35 +54,66 @@ struct DistanceFrame
   }
 };
 
-/** Distances in pixels, positive inside, exact up to `reach` and cut off there. */
+/**
+ * Distances in pixels, positive inside, exact up to `reach` and cut off there. Only what is near the contour is kept: a row of samples is a row of pieces, and all pieces
+ * that are wholly at the reach on one side are one.
+ */
 struct DistanceMap : DistanceFrame
 {
-  std::vector<float> value; ///< rows * columns, at the samples' centres
+  static constexpr int PieceSize = 16; ///< samples; after them comes the first one of the next piece, so that neighbours lie side by side
+
+  int across = 0;                    ///< pieces of a row
+  std::vector<std::uint32_t> pieces; ///< rows * across: where each one's samples begin
+  std::vector<float> values;         ///< of the pieces: at the samples' centres
   /** For each block of 8 x 8 samples and those before it in both directions, how many are not wholly at the reach. */
   std::vector<std::int32_t> blocksNear;
+
+  /** Is there no object, and nothing kept? */
+  bool empty() const { return this->pieces.empty(); }
+  /** A sample, and after it the next one of the row, if there is one. */
+  const float* sample(int row, int column) const
+  {
+    return &this->values[this->pieces[std::size_t(row) * std::size_t(this->across) + std::size_t(column / PieceSize)] + std::size_t(column % PieceSize)];
+  }
 
   /** The distance at a place; of an image without object the whole reach outside. */
   float at(double u, double v) const
   {
-    return this->value.empty()
-      ? -this->reach
-      : this->interpolate(
-          u, v, [this](int row, int column) { return this->value[std::size_t(row) * this->columns + column]; });
+    return this->empty() ? -this->reach : this->interpolate(u, v, [this](int row, int column) { return *this->sample(row, column); });
   }
 
   /** Is the value, but for rounding, the whole reach everywhere between these places, px? May say no where it is. Cost: four look-ups. */
   bool farInside(double firstU, double lastU, double firstV, double lastV) const;
 };
 
+class DistanceTransform;
+
 /**
- * The map of an image of 0 and 1. The contour runs between pixels: a pixel's distance is that to the nearest pixel of the other
+ * Makes maps, one after another, in memory that it keeps. The contour runs between pixels: a pixel's distance is that to the nearest pixel of the other
  * kind, less half a pixel. With a `spacing` of 1, the least, all pixels are sampled; of more, at most the reach, each sample is as
  * exact, and what lies between them is as straight as bilinear interpolation makes it. Cost: two passes over the image, and about
- * `reach` steps for each sample that near to the contour.
+ * `reach` steps for each sample that near to the contour; memory: two bytes a pixel meanwhile, and in the map 4 a sample near the contour and 1/4 a sample elsewhere.
  */
-DistanceMap distanceMap(const std::uint8_t* object, int width, int height, double reach, int spacing = 1);
+class DistanceMapper
+{
+public:
+  DistanceMapper();
+  ~DistanceMapper();
+  DistanceMapper(DistanceMapper&&) noexcept;
+  DistanceMapper& operator=(DistanceMapper&&) noexcept;
 
-class DistanceTransform;
+  /** The map of an image of 0 and 1. */
+  DistanceMap map(const std::uint8_t* object, int width, int height, double reach, int spacing = 1);
+
+private:
+  std::unique_ptr<DistanceTransform> Transform;
+};
+
+/** One map. */
+inline DistanceMap distanceMap(const std::uint8_t* object, int width, int height, double reach, int spacing = 1)
+{
+  return DistanceMapper().map(object, width, height, reach, spacing);
+}
 
 /**
  * distanceMap() of all pixels for whoever asks about few places: what at() says is the same, and only the pixels around the places are

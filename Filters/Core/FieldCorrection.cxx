@@ -5,6 +5,7 @@
 #include "Error.h"
 #include "FieldRefinement.h"
 #include "FieldSmoothing.h"
+#include "FirstTouch.h"
 #include "NearViews.h"
 #include "SurfaceCells.h"
 #include "Vectorised.h"
@@ -225,7 +226,11 @@ private:
   /** The least and the `rank`-th least distance over the observed silhouettes. */
   void findLeast(int rank, Execution& execution)
   {
-    this->Ranked.resize(this->Least.size());
+    if (this->Ranked.size() != this->Least.size())
+    {
+      this->Ranked.clear();
+      resizeSideBySide(this->Ranked, this->Least.size(), execution);
+    }
     const float far = float(this->Views.reach());
     const auto makeWork = [&]
     {
@@ -276,7 +281,9 @@ private:
     const double sigma = std::min({ this->Options.greatestSmoothing * this->Length.proportion,
       std::min(this->Options.smoothing, widest) * deficit, widest });
     this->makeModel(deficit, execution);
-    smoothGently(this->Least, sigma, deficit * this->Options.gentleness, execution);
+    const auto most = float(deficit * this->Options.gentleness); // noise is no larger, thin parts are
+    FieldSmoother smoother;
+    smoother.smooth(this->Least, sigma, most, execution);
     execution.checkpoint(0.75);
     Mesh surface = this->Least.contourMesh(execution);
     result.hull = applyHullBase(this->Least, surface, this->Options.hullConvexity, this->Band, execution);
@@ -284,11 +291,11 @@ private:
     {
       surface = this->Least.contourMesh(execution);
     }
-    this->Least.values() = this->agreedValues(this->Views.distances(surface, execution), execution);
-    smoothGently(this->Least, sigma, deficit * this->Options.gentleness, execution);
+    this->findAgreed(this->Views.distances(surface, execution), execution);
+    smoother.smooth(this->Least, sigma, most, execution);
   }
 
-  /** From the two kinds of distances, the second of which are given up. */
+  /** From the two kinds of distances. */
   void makeModel(double deficit, Execution& execution)
   {
     std::vector<float>& values = this->Least.values();
@@ -300,15 +307,16 @@ private:
           values[n] = std::min(this->Ranked[n], values[n] + float(2.0 * deficit));
         }
       });
-    std::vector<float>().swap(this->Ranked);
   }
 
-  /** What the model's field is to be where its views agree; `maps`: the distances in the model's silhouettes. */
-  std::vector<float> agreedValues(const std::vector<DistanceMap>& maps, Execution& execution) const
+  /** From the model's field to where its views agree, in the ranked distances' memory; `maps`: the distances in the model's silhouettes. */
+  void findAgreed(const std::vector<DistanceMap>& maps, Execution& execution)
   {
     execution.checkpoint(0.85);
     const std::vector<float>& model = this->Least.values();
-    std::vector<float> values = model;
+    std::vector<float>& values = this->Ranked;
+    execution.forRanges(values.size(), 1 << 16,
+      [&](std::size_t first, std::size_t last) { std::copy(&model[first], &model[0] + last, &values[first]); });
     const float band = float(this->Band);
     const auto inBand = [&](float value) { return std::abs(value) < band; };
     const auto concerns = [&](std::size_t block) { return std::any_of(&model[block], &model[block] + BlockPoints, inBand); };
@@ -343,22 +351,7 @@ private:
       };
     };
     forBlocks(this->Least, this->Views, &maps, concerns, makeWork, execution);
-    return values;
-  }
-
-  /** Smooth, but change no value by more than `most`: noise is no larger, thin parts are. */
-  static void smoothGently(BrickField& field, double sigma, double most, Execution& execution)
-  {
-    const std::vector<float> before = field.values();
-    smoothField(field, sigma, execution);
-    execution.forRanges(before.size(), 1 << 16,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t n = first; n < last; ++n)
-        {
-          field.values()[n] = std::clamp(field.values()[n], before[n] - float(most), before[n] + float(most));
-        }
-      });
+    this->Least.values().swap(values);
   }
 
   /**
@@ -402,7 +395,7 @@ private:
   std::vector<int> Some;   ///< every third view
   double Band = 3.0;       ///< octants: as far from the surface the field is corrected
   BrickField Least;
-  std::vector<float> Ranked; ///< what the model is made of, at the same points
+  std::vector<float> Ranked; ///< what the model is made of, at the same points; then of any value
 };
 
 /** Generations by which the field's lattice may be coarser than the surface's, for the smoothing that the deficit calls for. */

@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <memory>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace silhouette
@@ -117,17 +117,18 @@ struct RowOrder
 class Smoothing
 {
 public:
-  Smoothing(BrickField& field, const std::vector<float>& kernel)
+  /** `from` and `to`: memory for all values each. */
+  Smoothing(BrickField& field, const std::vector<float>& kernel, float* from, float* to)
     : Field(field)
     , Kernel(kernel)
     , Radius(int(kernel.size()) - 1)
     , Reach((this->Radius + Side - 1) / Side)
-    , From(new float[field.size()])
-    , To(new float[field.size()])
+    , From(from)
+    , To(to)
   {
   }
 
-  void run(Execution& execution)
+  void run(float most, Execution& execution)
   {
     this->forBricks(execution,
       [this](std::size_t first, std::size_t last)
@@ -140,14 +141,15 @@ public:
     for (int axis = 0; axis < 3; ++axis)
     {
       this->forBricks(execution, [this, axis](std::size_t first, std::size_t last) { this->smoothAlong(axis, first, last); });
-      this->From.swap(this->To);
+      std::swap(this->From, this->To);
     }
     this->forBricks(execution,
-      [this](std::size_t first, std::size_t last)
+      [this, most](std::size_t first, std::size_t last)
       {
         for (std::size_t n = first * Points; n < last * Points; ++n)
         {
-          this->Field.values()[n / Points * Points + this->Order.place[n % Points]] = this->From[n];
+          float& value = this->Field.values()[n / Points * Points + this->Order.place[n % Points]];
+          value = std::clamp(this->From[n], value - most, value + most);
         }
       });
   }
@@ -242,18 +244,28 @@ private:
   int Radius;
   int Reach; ///< in bricks
   RowOrder Order;
-  std::unique_ptr<float[]> From, To; ///< values of all bricks, a brick's row after row; first touched side by side
+  float* From; ///< values of all bricks, a brick's row after row
+  float* To;
 };
 
 } // namespace
 
-void smoothField(BrickField& field, double sigma, Execution& execution)
+void FieldSmoother::smooth(BrickField& field, double sigma, float most, Execution& execution)
 {
   constexpr double least = 1e-3; // octants: what is narrower leaves every value as it is
-  if (sigma > least && field.size() > 0)
+  if (!(sigma > least) || field.size() == 0)
   {
-    Smoothing(field, keepingKernel(sigma)).run(execution);
+    return;
   }
+  if (this->Size < field.size())
+  {
+    this->From.reset(); // before there is more
+    this->To.reset();
+    this->From.reset(new float[field.size()]);
+    this->To.reset(new float[field.size()]);
+    this->Size = field.size();
+  }
+  Smoothing(field, keepingKernel(sigma), this->From.get(), this->To.get()).run(most, execution);
 }
 
 } // namespace silhouette

@@ -7,13 +7,26 @@
 #include "BrickField.h"
 #include "Execution.h"
 
+#include <cstddef>
+#include <memory>
+
 namespace silhouette
 {
 
-/**
- * Along each axis a Gaussian of standard deviation `sigma` octants (0 or less: nothing happens), less a share of itself smoothed once more, so that polynomials up
- * to the third degree stay. Where bricks end the last value goes on. Cost: for each value and axis 9 sigma values, in vectors; twice the field's memory.
- */
-void smoothField(BrickField& field, double sigma, Execution& execution);
+/** Smooths fields, one after another, in memory that it keeps. */
+class FieldSmoother
+{
+public:
+  /**
+   * Along each axis a Gaussian of standard deviation `sigma` octants (0 or less: nothing happens), less a share of itself smoothed once more, so that polynomials up
+   * to the third degree stay; but no value is changed by more than `most`, 0 or more. Where bricks end the last value goes on. Cost: for each value and axis 9 sigma values, in
+   * vectors; memory: twice the field's.
+   */
+  void smooth(BrickField& field, double sigma, float most, Execution& execution);
+
+private:
+  std::unique_ptr<float[]> From, To; ///< values of all bricks, a brick's row after row; first touched side by side
+  std::size_t Size = 0;              ///< of each
+};
 
 } // namespace silhouette

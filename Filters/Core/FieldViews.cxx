@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldViews.h"
 
+#include "SharedWork.h"
 #include "Vectorised.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -114,7 +116,8 @@ SILHOUETTE_VECTORISED void placeCorners(const LatticeProjection& projection, con
 /** The samples of a map around each of some places, of which it has all four. */
 struct BlockSamples
 {
-  std::int32_t sample[Points]; ///< the upper left one of the four, from the first sample that is asked for on
+  std::int32_t piece[Points];  ///< of the upper left one of the four
+  std::int32_t within[Points]; ///< its place in that piece
   float s[Points], t[Points];
   float upper[2 * Points], lower[2 * Points];
 };
@@ -124,8 +127,9 @@ struct SampleFrame
 {
   float x, y;                        ///< samples from the first one to where the block's lowest point falls
   float samplesPerPixel;
-  std::int32_t lastColumn, lastRow; ///< of the upper left ones of four, from the first one on
-  std::int32_t columns;             ///< of a row of the map's
+  std::int32_t firstColumn, firstRow; ///< of the first one
+  std::int32_t lastColumn, lastRow;   ///< of the upper left ones of four, from the first one on
+  std::int32_t across;                ///< pieces of a row of the map's
 };
 
 /** Places that rounding carries beyond the samples take the last ones. */
@@ -138,7 +142,8 @@ SILHOUETTE_VECTORISED void findSamples(const BlockPlaces& places, const SampleFr
     const std::int32_t notBefore = anyColumn > 0 ? anyColumn : 0, notAbove = anyRow > 0 ? anyRow : 0;
     const std::int32_t column = notBefore < frame.lastColumn ? notBefore : frame.lastColumn;
     const std::int32_t row = notAbove < frame.lastRow ? notAbove : frame.lastRow;
-    samples.sample[n] = row * frame.columns + column;
+    samples.piece[n] = (frame.firstRow + row) * frame.across + (frame.firstColumn + column) / DistanceMap::PieceSize;
+    samples.within[n] = (frame.firstColumn + column) % DistanceMap::PieceSize;
     samples.s[n] = across - float(column);
     samples.t[n] = down - float(row);
   }
@@ -160,9 +165,9 @@ SILHOUETTE_VECTORISED void interpolateBlock(const BlockSamples& samples, const B
 /** Does a map have all samples around the places of a region? */
 bool hasSamplesAround(const DistanceMap& map, const FieldViews::Region& region)
 {
-  return !map.value.empty() && region.firstU >= map.left && region.firstV >= map.top &&
+  return !map.empty() && region.firstU >= map.left && region.firstV >= map.top &&
     region.lastU < map.left + map.lastColumn && region.lastV < map.top + map.lastRow &&
-    map.value.size() <= std::size_t(std::numeric_limits<std::int32_t>::max());
+    map.pieces.size() <= std::size_t(std::numeric_limits<std::int32_t>::max());
 }
 
 void insideOfSamples(
@@ -171,13 +176,14 @@ void insideOfSamples(
   const int column = int((region.firstU - map.left) * map.samplesPerPixel), row = int((region.firstV - map.top) * map.samplesPerPixel);
   const double x = (block.u - map.left) * map.samplesPerPixel - column, y = (block.v - map.top) * map.samplesPerPixel - row;
   BlockSamples samples;
-  findSamples(places, { float(x), float(y), float(map.samplesPerPixel), map.columns - 2 - column, map.rows - 2 - row, map.columns }, samples);
-  const float* const first = &map.value[std::size_t(row) * map.columns + column];
+  findSamples(places,
+    { float(x), float(y), float(map.samplesPerPixel), column, row, map.columns - 2 - column, map.rows - 2 - row, map.across }, samples);
+  const float* const values = map.values.data();
   for (int n = 0; n < Points; ++n)
   {
-    const float* sample = first + samples.sample[n];
-    std::memcpy(&samples.upper[2 * n], sample, 2 * sizeof(float));
-    std::memcpy(&samples.lower[2 * n], sample + map.columns, 2 * sizeof(float));
+    const std::uint32_t* const piece = &map.pieces[std::size_t(samples.piece[n])];
+    std::memcpy(&samples.upper[2 * n], values + piece[0] + samples.within[n], 2 * sizeof(float));
+    std::memcpy(&samples.lower[2 * n], values + piece[map.across] + samples.within[n], 2 * sizeof(float));
   }
   interpolateBlock(samples, places, reach, inside);
 }
@@ -217,17 +223,13 @@ Eigen::Matrix<double, 2, 3> FieldViews::pixelSteps(int view) const
 
 void FieldViews::observe(const std::vector<int>& views, Execution& execution)
 {
-  execution.forRanges(views.size(), 1,
-    [&](std::size_t first, std::size_t last)
+  std::vector<int> missing;
+  std::copy_if(views.begin(), views.end(), std::back_inserter(missing), [this](int view) { return !this->isObserved(view); });
+  shareWork(missing.size(), execution,
+    [&]
     {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        DistanceMap& map = this->Observed[views[i]];
-        if (map.width == 0)
-        {
-          map = this->distances(views[i], (*this->Views)[views[i]].silhouette());
-        }
-      }
+      return [&, mapper = DistanceMapper()](std::size_t n) mutable
+      { this->Observed[missing[n]] = this->distances(missing[n], (*this->Views)[missing[n]].silhouette(), mapper); };
     });
 }
 
@@ -327,9 +329,8 @@ void FieldViews::fetch(const DistanceMap& map, const Region& region) const
     const int left = sampleOf(region.firstU, map.left), right = sampleOf(region.lastU, map.left) + 1;
     for (int row = sampleOf(region.firstV, map.top); row <= sampleOf(region.lastV, map.top) + 1; ++row)
     {
-      const float* samples = &map.value[std::size_t(row) * std::size_t(map.columns)];
-      __builtin_prefetch(samples + left);
-      __builtin_prefetch(samples + right);
+      __builtin_prefetch(map.sample(row, left));
+      __builtin_prefetch(map.sample(row, right));
     }
   }
 #else
@@ -349,11 +350,11 @@ std::vector<ImageCamera> FieldViews::cameras(const std::vector<int>& views) cons
   return cameras;
 }
 
-DistanceMap FieldViews::distances(int view, const std::uint8_t* object) const
+DistanceMap FieldViews::distances(int view, const std::uint8_t* object, DistanceMapper& mapper) const
 {
   const PreparedView& seen = (*this->Views)[view];
   const double spacing = this->Samples > 0.0 ? std::min(this->CentreScale[view] / this->Samples, double(seen.width)) : 1.0;
-  return distanceMap(object, seen.width, seen.height, this->reachInPixels(view), int(spacing));
+  return mapper.map(object, seen.width, seen.height, this->reachInPixels(view), int(spacing));
 }
 
 std::vector<DistanceMap> FieldViews::distances(const Mesh& mesh, Execution& execution) const
@@ -362,13 +363,14 @@ std::vector<DistanceMap> FieldViews::distances(const Mesh& mesh, Execution& exec
   std::iota(all.begin(), all.end(), 0);
   const OutlineRenderer renderer(mesh, this->cameras(all), execution);
   std::vector<DistanceMap> maps(all.size());
-  execution.forRanges(maps.size(), 1,
-    [&](std::size_t first, std::size_t last)
+  shareWork(maps.size(), execution,
+    [&]
     {
-      for (std::size_t i = first; i < last; ++i)
+      return [&, mapper = DistanceMapper(), image = BinaryImage()](std::size_t i) mutable
       {
-        maps[i] = this->distances(int(i), imageOf(renderer.render(i)).pixels.data());
-      }
+        drawRuns(renderer.render(i), image);
+        maps[i] = this->distances(int(i), image.pixels.data(), mapper);
+      };
     });
   return maps;
 }

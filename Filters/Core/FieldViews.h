@@ -95,7 +95,7 @@ private:
   void project(int view);
   /** px: observed distances are exact up to here. */
   double reachInPixels(int view) const;
-  DistanceMap distances(int view, const std::uint8_t* object) const;
+  DistanceMap distances(int view, const std::uint8_t* object, DistanceMapper& mapper) const;
 
   const PreparedViews* Views;
   Lattice TheLattice;

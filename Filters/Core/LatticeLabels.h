@@ -71,7 +71,7 @@ public:
 
   /**
    * Labels by a field, inside where it is positive; by the octree where the field has no values. The shell has
-   * to hold every cell with corners of both signs and those of which field and octree tell different things.
+   * to hold every cell with corners of both signs, and those outside by the field in an inside octant.
    */
   LatticeLabels(const Octree& octree, CornerShell shell, const BrickField& field, Execution& execution);
 

@@ -29,7 +29,7 @@ CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, con
   const LocalHullOptions& options, Execution& execution);
 
 /**
- * Labels of a shell that holds the survivors of `octree`, `points` with the cells around them, and all that the corrected capture's surface
+ * Labels of a shell that holds the survivors of `octree`, but by a field only those with a corner outside, `points` with the cells around them, and all that the corrected capture's surface
  * passes. What of the corrected surface holds no survivor is left out. Where its bricks end, the capture's field has to say what the octree
  * says, as correctCapture() makes it: no surface leaves them but through intersection octants.
  */

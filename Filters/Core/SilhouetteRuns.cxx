@@ -54,9 +54,11 @@ SilhouetteRuns runsOf(const BinaryImage& image)
   return runs;
 }
 
-BinaryImage imageOf(const SilhouetteRuns& runs)
+void drawRuns(const SilhouetteRuns& runs, BinaryImage& image)
 {
-  BinaryImage image{ runs.width, runs.height, std::vector<std::uint8_t>(std::size_t(runs.width) * std::size_t(runs.height), 0) };
+  image.width = runs.width;
+  image.height = runs.height;
+  image.pixels.assign(std::size_t(runs.width) * std::size_t(runs.height), 0);
   for (int row = 0; row < runs.height; ++row)
   {
     std::uint8_t* pixels = image.pixels.data() + std::size_t(row) * std::size_t(runs.width);
@@ -65,7 +67,6 @@ BinaryImage imageOf(const SilhouetteRuns& runs)
       std::fill(pixels + run->begin, pixels + run->end, std::uint8_t(1));
     }
   }
-  return image;
 }
 
 std::vector<ContourPlace> contourPlaces(const SilhouetteRuns& runs)

@@ -39,9 +39,19 @@ struct SilhouetteRuns
   }
 };
 
-/** An image's runs, and the image of runs. Cost: a pass over the pixels. */
+/** An image's runs. Cost: a pass over the pixels. */
 SilhouetteRuns runsOf(const BinaryImage& image);
-BinaryImage imageOf(const SilhouetteRuns& runs);
+
+/** The image of runs, in an image's memory. Cost: a pass over the pixels. */
+void drawRuns(const SilhouetteRuns& runs, BinaryImage& image);
+
+/** The same, in memory of its own. */
+inline BinaryImage imageOf(const SilhouetteRuns& runs)
+{
+  BinaryImage image;
+  drawRuns(runs, image);
+  return image;
+}
 
 /** Where two pixels that lie beside or below one another differ: the columns' first one and the row's first one, and which of both. */
 struct ContourPlace

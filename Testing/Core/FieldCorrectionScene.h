@@ -23,13 +23,13 @@ constexpr int Depth = 5;
 class Capture
 {
 public:
-  explicit Capture(SyntheticShape shape)
+  explicit Capture(SyntheticShape shape, int views = 24)
   {
     SyntheticShapeOptions coarse;
     coarse.refinement = 0.5;
     this->Truth = syntheticShape(shape, coarse);
     this->Options.photographs = false;
-    this->Options.views = 24;
+    this->Options.views = views;
     this->Options.width = this->Options.height = Size;
     Execution execution;
     this->Views = synthesizeCapture(this->Truth, this->Options, execution);

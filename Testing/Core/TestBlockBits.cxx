@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 using namespace silhouette;
 using namespace silhouette::test;
 
@@ -44,6 +47,24 @@ TEST(BlockBits, StepsComeFromTheBlockItselfAndTheOneBeyond)
       const LatticePoint p = fromMorton(n);
       EXPECT_EQ(fromAhead(bits, beyond, axis) >> n & 1, bitAt(stepped(p, axis, 1), bits, beyond));
       EXPECT_EQ(fromBehind(bits, beyond, axis) >> n & 1, bitAt(stepped(p, axis, -1), bits, beyond));
+    }
+  }
+}
+
+TEST(BlockBits, CornersAreBroughtFromTheBlockAndThoseAheadOfIt)
+{
+  Random random(5);
+  std::array<std::uint64_t, 8> words;
+  std::generate(words.begin(), words.end(), [&] { return randomWord(random); });
+  std::array<std::uint64_t, 8> corners = words;
+  bringCorners(corners);
+  for (std::uint64_t n = 0; n < 64; ++n)
+  {
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const LatticePoint p = fromMorton(n) + cornerOffset(corner);
+      const unsigned word = unsigned(p.i >> 2) | unsigned(p.j >> 2) << 1 | unsigned(p.k >> 2) << 2;
+      EXPECT_EQ(corners[std::size_t(corner)] >> n & 1, words[word] >> mortonCode({ p.i & 3, p.j & 3, p.k & 3 }) & 1) << n << ", corner " << corner;
     }
   }
 }

@@ -130,9 +130,10 @@ TEST(BrickField, MixedCellsAreThoseWithCornersOfBothSigns)
       int inside = 0, known = 0;
       for (int n = 0; n < 8; ++n)
       {
-        const auto at = field.find(mortonCode(fromMorton(cell) + cornerOffset(n)));
+        const LatticePoint corner = fromMorton(cell) + cornerOffset(n);
+        const auto at = field.find(mortonCode(corner));
         known += at >= 0;
-        inside += at >= 0 && field.values()[at] > 0.0f;
+        inside += at >= 0 && field.values()[at] > 0.0f && !lattice.onBorder(corner);
       }
       if (known == 8 && inside > 0 && inside < 8)
       {
@@ -167,6 +168,17 @@ TEST(BrickField, TheContourOfASpheresDistancesIsTheSphere)
       EXPECT_NEAR((p - middle).norm() / leaf, radius, 0.02);
     }
   }
+}
+
+TEST(BrickField, TheContourOfAFieldThatIsPositiveOnTheBorderIsClosed)
+{
+  Execution execution;
+  const Lattice lattice = latticeOf(4);
+  BrickField field(lattice, allCells(lattice), 0, execution);
+  fill(field, [](const LatticePoint&) { return 1.0; });
+  const Mesh mesh = field.contourMesh(execution);
+  EXPECT_EQ(mesh.triangles.size(), 6u * 2u * 14u * 14u + 12u * 2u * 14u + 8u); // a box, its edges and corners cut off
+  EXPECT_TRUE(assessMesh(mesh, execution).sound());
 }
 
 TEST(BrickField, ACursorFindsWhatTheFieldFinds)

@@ -23,7 +23,7 @@ double deficitOf(const Corrected& corrected, const std::vector<int>& views)
 ContourDeficit measure(const Corrected& corrected, double smallest)
 {
   Execution execution;
-  return { FieldViews(corrected.views, corrected.lattice, 4.0), corrected.exact, Limit, smallest, execution };
+  return { FieldViews(corrected.views, corrected.lattice, 4.0), corrected.exact, Limit, smallest, FieldCorrectionOptions().shiftNoise, execution };
 }
 
 const std::vector<int> Thirds{ 0, 3, 6, 9, 12, 15, 18, 21 }, First{ 0, 3, 12, 15 };
@@ -60,6 +60,26 @@ TEST(ContourDeficit, OfHalfOfThemWhereThatIsFarFromWhatCounts)
   for (std::size_t n = 0; n < Thirds.size(); ++n)
   {
     EXPECT_EQ(some.residuals[n].count > 0, n % 4 < 2) << n;
+  }
+}
+
+/** Contour noise is in all views alike, wrong cameras are not. */
+TEST(ContourDeficit, OfHalfOfThemWhereContoursAreNoisyAndOfAllWhereCamerasAreWrong)
+{
+  Capture capture(SyntheticShape::Torus, 36);
+  const std::vector<int> thirds = everyThirdView(36), first{ 0, 3, 12, 15, 24, 27 };
+  for (const bool isCamera : { false, true })
+  {
+    for (const std::uint64_t seed : { 1, 2, 3 })
+    {
+      capture.draw(isCamera ? 0.0 : 1.2, isCamera ? 1.0 : 0.0, seed);
+      const Corrected one(capture);
+      const ContourDeficit deficit = measure(one, FieldCorrectionOptions().smallestDeficit);
+      EXPECT_EQ(deficit.octants, deficitOf(one, isCamera ? thirds : first)) << isCamera << ", seed " << seed;
+      EXPECT_EQ(one.correction.deficit, deficit.octants) << isCamera << ", seed " << seed;
+      EXPECT_EQ(one.correction.alignment > 0.0, isCamera) << "seed " << seed;
+      EXPECT_NEAR(deficitOf(one, first), deficitOf(one, thirds), isCamera ? 1.0 : 0.2 * deficit.octants) << "seed " << seed;
+    }
   }
 }
 

@@ -155,7 +155,7 @@ TEST(DistanceMap, FarFromAContourEverythingIsAtTheReach)
       ASSERT_NEAR(map.at(column, row), expected, 1e-5) << column << " " << row;
     }
   }
-  EXPECT_LT(map.value.size(), 200u * 150u); // kept for the surroundings alone
+  EXPECT_LT(map.values.size(), 200u * 150u / 2u); // kept near the contour alone
 }
 
 TEST(DistanceMap, NothingAndEverything)
@@ -309,4 +309,43 @@ TEST(DistanceMap, WhatIsCalledFarInsideIsAtTheReach)
     }
   }
   EXPECT_GT(far, 20);
+}
+
+TEST(DistanceMap, NeighboursInARowLieSideBySide)
+{
+  Random random(8);
+  for (const int width : { 1, 15, 16, 17, 32, 50, 131 })
+  {
+    const BinaryImage image = randomMask(width, 40, random);
+    for (const int spacing : { 1, 3 })
+    {
+      const DistanceMap map = distanceMap(image.pixels.data(), width, 40, 5.0, spacing);
+      ASSERT_EQ(map.pieces.size(), std::size_t(map.across * map.rows));
+      for (int row = 0; row < map.rows; ++row)
+      {
+        for (int column = 0; column + 1 < map.columns; ++column)
+        {
+          ASSERT_EQ(map.sample(row, column)[1], *map.sample(row, column + 1)) << width << ": " << column << " " << row;
+        }
+      }
+    }
+  }
+}
+
+TEST(DistanceMap, AMapperDoesNotRememberTheLastImage)
+{
+  Random random(9);
+  DistanceMapper mapper;
+  for (int run = 0; run < 60; ++run)
+  {
+    const BinaryImage image =
+      run % 10 == 9 ? blank(20, 30, std::uint8_t(run / 10 % 2)) : randomMask(1 + random.below(150), 1 + random.below(90), random);
+    const double reach = random.below(4) == 0 ? 140.0 : random.uniform(1.0, 30.0); // on both sides of what fits into sixteen bits
+    const int spacing = 1 + random.below(4);
+    const DistanceMap map = mapper.map(image.pixels.data(), image.width, image.height, reach, spacing);
+    const DistanceMap fresh = distanceMap(image.pixels.data(), image.width, image.height, reach, spacing);
+    ASSERT_EQ(map.pieces, fresh.pieces) << run;
+    ASSERT_EQ(map.values, fresh.values) << run;
+    ASSERT_EQ(map.blocksNear, fresh.blocksNear) << run;
+  }
 }

@@ -15,6 +15,13 @@ using namespace silhouette::test;
 namespace
 {
 
+constexpr float Unlimited = 1e30f;
+
+void smoothField(BrickField& field, double sigma, Execution& execution)
+{
+  FieldSmoother().smooth(field, sigma, Unlimited, execution);
+}
+
 /** What is left of an impulse tells the weights at 0, 1, 2, ... along one axis. */
 std::vector<double> weightsOf(double sigma, int radius)
 {
@@ -216,5 +223,33 @@ TEST(FieldSmoothing, LeavesEverythingWhereItIsNextToNone)
   {
     smoothField(field, sigma, execution);
     EXPECT_EQ(field.values(), before) << sigma;
+  }
+}
+
+TEST(FieldSmoothing, ChangesNoValueByMoreThanIsAllowedAndDoesNotRememberTheLastField)
+{
+  Execution execution;
+  Random random(9);
+  FieldSmoother smoother;
+  for (const int depth : { 5, 4, 5, 6 })
+  {
+    const Lattice lattice = latticeOf(depth);
+    BrickField field(lattice, allCells(lattice), 0, execution);
+    fill(field, [&](const LatticePoint&) { return random.uniform(-1.0, 1.0); });
+    BrickField free = field, fixed = field;
+    const BrickField before = field;
+    smoothField(free, 1.3, execution);
+    smoother.smooth(field, 1.3, 0.2f, execution);
+    smoother.smooth(fixed, 1.3, 0.0f, execution);
+    EXPECT_EQ(fixed.values(), before.values());
+    std::size_t limited = 0;
+    for (std::size_t n = 0; n < field.size(); ++n)
+    {
+      const float was = before.values()[n], expected = std::clamp(free.values()[n], was - 0.2f, was + 0.2f);
+      ASSERT_EQ(field.values()[n], expected) << depth << ", " << n;
+      limited += expected != free.values()[n];
+    }
+    EXPECT_GT(limited, field.size() / 4);
+    EXPECT_LT(limited, field.size());
   }
 }

@@ -167,6 +167,108 @@ TEST(LatticeRegions, CavitiesOfAFieldThatReachesIntoBackgroundOctantsAgreeWithFl
   EXPECT_GT(entered, 1000) << "no octant of several cells holds a part of the solid";
 }
 
+TEST(LatticeRegions, WhatHoldsNeitherACellsCornerNorAnInsideOctantIsUnsupported)
+{
+  Execution execution;
+  const PreparedViews views = prepareViews(viewsOf(sphereMesh(3, 0.3), axisCameras(100.0, 240), 240));
+  const Octree octree = carveViews(views, unitCube(), 5);
+  const int n = octree.lattice.cells() + 1;
+  std::vector<std::uint64_t> everywhere;
+  for (std::uint64_t cell = 0; cell < std::uint64_t(n - 1) * (n - 1) * (n - 1); ++cell)
+  {
+    everywhere.push_back(cell);
+  }
+  Random random(78);
+  std::size_t unsupported = 0, supported = 0;
+  for (int round = 0; round < 6; ++round)
+  {
+    // The object, and crumbs around it.
+    BrickField field(octree.lattice, everywhere, 0, execution);
+    const int crumbs = 20 + 40 * round;
+    std::vector<Vector3> centres;
+    for (int crumb = 0; crumb < crumbs; ++crumb)
+    {
+      centres.push_back({ random.uniform(1.0, n - 2.0), random.uniform(1.0, n - 2.0), random.uniform(1.0, n - 2.0) });
+    }
+    for (std::size_t at = 0; at < field.size(); ++at)
+    {
+      const LatticePoint p = fromMorton(field.code(at));
+      double deepest = 0.31 / octree.lattice.leafEdge() - (toVector(p) - Vector3::Constant((n - 1) / 2)).norm();
+      for (const Vector3& centre : centres)
+      {
+        deepest = std::max(deepest, 1.3 - (toVector(p) - centre).norm());
+      }
+      field.values()[at] = float(deepest);
+    }
+    std::vector<std::uint64_t> cells; // some of them hold a crumb's corner
+    for (int cell = 0; cell < 150; ++cell)
+    {
+      cells.push_back(std::uint64_t(random.below(int(everywhere.size()))));
+    }
+    sortUnique(cells);
+    const LatticeLabels labels(octree, CornerShell(), field, execution);
+    const std::vector<std::uint64_t> found = unsupportedPoints(labels, cells, execution);
+    // By flooding from all that supports.
+    const auto index = [n](const LatticePoint& p) { return std::size_t(p.i + n * (p.j + n * p.k)); };
+    std::vector<std::uint8_t> isReached(std::size_t(n * n * n), 0);
+    std::vector<LatticePoint> stack;
+    const auto reach = [&](const LatticePoint& p)
+    {
+      if (std::min({ p.i, p.j, p.k }) >= 0 && std::max({ p.i, p.j, p.k }) < n && isReached[index(p)] == 0 && labels.insideAt(p))
+      {
+        isReached[index(p)] = 1;
+        stack.push_back(p);
+      }
+    };
+    const auto reachCorners = [&](const LatticePoint& cell)
+    {
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        reach(cell + cornerOffset(corner));
+      }
+    };
+    for (const std::uint64_t cell : cells)
+    {
+      reachCorners(fromMorton(cell));
+    }
+    for (const std::uint64_t cell : everywhere)
+    {
+      if (octree.locate(fromMorton(cell)).state == OctantState::Inside)
+      {
+        reachCorners(fromMorton(cell));
+      }
+    }
+    while (!stack.empty())
+    {
+      const LatticePoint p = stack.back();
+      stack.pop_back();
+      for (int d = 0; d < 27; ++d)
+      {
+        const LatticePoint step = neighbourOf({ 0, 0, 0 }, d);
+        if (std::abs(step.i) + std::abs(step.j) + std::abs(step.k) <= 2)
+        {
+          reach(p + step);
+        }
+      }
+    }
+    std::vector<std::uint64_t> expected;
+    for (int p = 0; p < n * n * n; ++p)
+    {
+      const LatticePoint at{ p % n, p / n % n, p / n / n };
+      if (labels.insideAt(at) && isReached[index(at)] == 0)
+      {
+        expected.push_back(mortonCode(at));
+      }
+      supported += isReached[index(at)];
+    }
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(found, expected) << round;
+    unsupported += found.size();
+  }
+  EXPECT_GT(unsupported, 500u);
+  EXPECT_GT(supported, 500u);
+}
+
 TEST(LatticeRegions, AStrictHullOfTheAnnuliHasNoCavityOneVoteLeavesOne)
 {
   Execution execution;
