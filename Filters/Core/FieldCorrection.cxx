@@ -33,7 +33,8 @@ constexpr int MostAlignments = 100;
 constexpr double FirstStep = 1.25, LaterStep = 1.6;
 constexpr double SamplesPerOctant = 2.0; ///< of the silhouettes' distances: they are straight but for corners
 constexpr int MostHalvings = 3;          ///< between the lattice of the field and that of the octants
-constexpr double FinestSmoothing = 3.0;  ///< octants of the field's lattice
+constexpr double FinestSmoothing = 1.9;  ///< octants of the field's lattice, where contours alone are noisy
+constexpr double FinestAligned = 3.0;    ///< the same where views may have to be aligned
 constexpr int RefinedMargin = 3;         ///< octants that the field is given around the surface
 constexpr double ThoughtOutAt = 128.0; ///< cells a side of the lattice that the largest lengths are stated for
 
@@ -104,6 +105,20 @@ struct Lengths
   double reach() const { return 4.0 * this->scale; } ///< distances are cut off there
 };
 
+/** Do residuals of `views` tell of wrong cameras? `residuals`: their common shift is taken out. */
+bool tellOfCameras(
+  const FieldViews& fieldViews, const std::vector<int>& views, std::vector<ContourResidual>& residuals, const FieldCorrectionOptions& options)
+{
+  removeCommonShift(fieldViews, views, residuals);
+  return noiseShare(residuals) <= options.shiftNoise;
+}
+
+/** May cameras be wrong, by the residuals of every third view? */
+bool mayBeCameras(const FieldViews& fieldViews, std::vector<ContourResidual> measured, const FieldCorrectionOptions& options)
+{
+  return measured.size() < std::size_t(ViewsToJudgeBy) || tellOfCameras(fieldViews, everyThirdView(fieldViews.size()), measured, options);
+}
+
 class Correction
 {
 public:
@@ -118,8 +133,11 @@ public:
     std::iota(this->All.begin(), this->All.end(), 0);
   }
 
-  /** `cells`: those of the surface's points; `measured`: the residuals of some views against the surface, which count where this lattice is the surface's. Lengths are octants of this lattice. */
-  void run(const std::vector<std::uint64_t>& cells, const std::vector<ContourResidual>& measured, FieldCorrection& result, Execution& execution)
+  /**
+   * `cells`: those of the surface's points; `measured`: the residuals of some views against the surface, which count where this lattice is the surface's; null where they tell that no camera is
+   * wrong. Lengths are octants of this lattice.
+   */
+  void run(const std::vector<std::uint64_t>& cells, const std::vector<ContourResidual>* measured, FieldCorrection& result, Execution& execution)
   {
     // As wide as smoothing reaches by one standard deviation, for the noise there is.
     this->Band = std::clamp(
@@ -127,7 +145,7 @@ public:
     this->Least = BrickField(this->Views.lattice(), cells, int(std::ceil(this->Band)), execution);
     this->Views.observe(this->All, execution);
     result.remainingDeficit = result.deficit;
-    const bool isAligned = this->Options.alignViews && this->align(measured, execution);
+    const bool isAligned = this->Options.alignViews && measured && this->align(*measured, execution);
     if (isAligned)
     {
       double sum = 0.0;
@@ -176,24 +194,12 @@ private:
     return all;
   }
 
-  /** Do residuals of `views` tell of wrong cameras? `residuals`: their common shift is taken out. */
-  bool tellsOfCameras(const std::vector<int>& views, std::vector<ContourResidual>& residuals) const
-  {
-    removeCommonShift(this->Views, views, residuals);
-    return noiseShare(residuals) <= this->Options.shiftNoise;
-  }
-
   /**
    * Shift the views towards the contours of the surface, then of the surface of the shifted views, and so on. Where the field's lattice is coarser than the
    * surface's, its own surface comes first: it has fewer triangles. False where chance alone may have shifted them: then they are left as they are.
    */
   bool align(const std::vector<ContourResidual>& measured, Execution& execution)
   {
-    std::vector<ContourResidual> some = measured;
-    if (some.size() >= std::size_t(ViewsToJudgeBy) && !this->tellsOfCameras(this->Some, some))
-    {
-      return false;
-    }
     for (int round = 0; round < this->Options.alignments; ++round)
     {
       const bool isMeasured = round == 0 && this->Length.octants == 1.0;
@@ -202,7 +208,7 @@ private:
         this->findLeast(1, execution);
       }
       auto residuals = isMeasured ? this->completed(measured, execution) : this->residuals(this->Least.contourMesh(execution), this->All, execution);
-      if (!this->tellsOfCameras(this->All, residuals) && round == 0)
+      if (!tellOfCameras(this->Views, this->All, residuals, this->Options) && round == 0)
       {
         return false;
       }
@@ -399,22 +405,23 @@ private:
 };
 
 /** Generations by which the field's lattice may be coarser than the surface's, for the smoothing that the deficit calls for. */
-int halvingsFor(double deficit, const Lengths& lengths, const FieldCorrectionOptions& options)
+int halvingsFor(double deficit, double finest, const Lengths& lengths, const FieldCorrectionOptions& options)
 {
   double sigma = std::min(options.greatestSmoothing * lengths.proportion, options.smoothing * deficit);
   int halvings = 0;
-  for (; halvings < MostHalvings && sigma >= 2.0 * FinestSmoothing; sigma /= 2.0)
+  for (; halvings < MostHalvings && sigma >= 2.0 * finest; sigma /= 2.0)
   {
     ++halvings;
   }
   return halvings;
 }
 
-/** `result` and `residuals` in octants of the lattice, which the field's is where the residuals count. */
+/** `result` and `residuals`, which may be null as Correction has them, in octants of the lattice, which the field's is where the residuals count. */
 void correctOnCoarserLattice(const Mesh& surface, const Lattice& lattice, const PreparedViews& views, const FieldCorrectionOptions& options,
-  const std::vector<ContourResidual>& residuals, FieldCorrection& result, Execution& execution)
+  const std::vector<ContourResidual>* residuals, FieldCorrection& result, Execution& execution)
 {
-  const int halvings = std::min(halvingsFor(result.deficit, Lengths(lattice), options), lattice.depth - 1);
+  const double finest = residuals ? FinestAligned : FinestSmoothing;
+  const int halvings = std::min(halvingsFor(result.deficit, finest, Lengths(lattice), options), lattice.depth - 1);
   const Lengths lengths = Lengths(lattice).coarser(halvings);
   FieldViews fieldViews(views, { lattice.root, lattice.depth - halvings }, lengths.reach(), SamplesPerOctant);
   FieldCorrection coarse;
@@ -452,7 +459,8 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
       measured.shift.pixels > FinestShift))
   {
     Phase correcting(execution, 0.3, 1.0);
-    correctOnCoarserLattice(surface, lattice, views, options, measured.residuals, result, correcting);
+    const auto* residuals = mayBeCameras(fieldViews, measured.residuals, options) ? &measured.residuals : nullptr;
+    correctOnCoarserLattice(surface, lattice, views, options, residuals, result, correcting);
   }
   execution.progress(1.0);
   return result;
