@@ -79,8 +79,15 @@ Sets setsWithout(const std::vector<std::uint64_t>& cells, BlockRegions& regions)
         continue;
       }
       corners = corners ? corners : pointsTouching(regions.blocks()[block], cellsOf);
-      holdsAny[set] = (regions.part(part) & *corners) != 0;
-      holdsAny[set] != 0 ? without.erase(set) : without.insert(set).second;
+      if ((regions.part(part) & *corners) != 0)
+      {
+        holdsAny[set] = 1;
+        without.erase(set);
+      }
+      else
+      {
+        without.insert(set);
+      }
     }
   }
   return without;

@@ -234,7 +234,7 @@ LatticeLabels labelsByField(const Octree& octree, const std::vector<std::uint64_
   }
   const auto unsupported = unsupportedPoints(everywhere, survivors, execution);
   cells = united(cellsWithOutside(cells, everywhere, execution), field.mixedCells(execution));
-  cells = united(cells, cellsAround(united(points, unsupported), execution));
+  cells = united(united(cells, cellsAround(points, execution)), cellsAround(unsupported, execution));
   LatticeLabels labels(base, makeCornerShell(cells, execution), field, execution);
   labels.setSurvivors(survivors, execution);
   labelOutside(labels, unsupported);

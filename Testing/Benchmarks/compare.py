@@ -104,8 +104,13 @@ def targets(rows, cells, options):
             return result["seconds"]["local_hulls"] / result["seconds"]["surface"]
         say("the local hulls' time on clean silhouettes, the surface's being 1", hulls(rows["hulls"]), 3)
         noise = options.size / 256.0
-        say("the same with contour noise of %g px" % noise,
-            hulls(stages("hulls", cells, options, "--noise-contour", noise)), 6)
+        noisy = {share: stages("hulls", cells, options, "--noise-contour", share * noise) for share in (0.25, 0.5, 1, 2)}
+        say("the same with contour noise of %g px" % noise, hulls(noisy[1]), 6)
+        said.append("- that time with contour noise of %s px: %s" % (
+            ", ".join("%g" % (share * noise) for share in noisy), ", ".join(ratio_text(hulls(result)) for result in noisy.values())))
+        said.append("- the whole's time with local hulls, that of octree and surface being 1, clean and with that noise: %s" % (
+            ", ".join(ratio_text(seconds(result) / (seconds(result) - result["seconds"]["local_hulls"]))
+                      for result in [rows["hulls"], *noisy.values()])))
     if options.threads != 1:
         fastest = {1: math.inf, 2: math.inf}
         for threads in (1, 2) * TURNS:

@@ -222,10 +222,17 @@ TEST(RobustLabels, EverySurvivorIsMarkedWhateverTheNoise)
       const CorrectedCapture capture = noisy.correct();
       fields += capture.correction.field.has_value();
       repairs += capture.repaired.has_value();
-      const LatticePoint middle{ 1 << (depth - 1), 1 << (depth - 1), 1 << (depth - 1) };
+      const LatticePoint middle{ 1 << (depth - 1), 1 << (depth - 1), 1 << (depth - 1) }, before{ middle.i - 2, middle.j, middle.k - 1 };
       const std::string what = "seed " + std::to_string(seed) + " depth " + std::to_string(depth);
       expectPromise(noisy.labels(capture), noisy.octree, what);
-      expectPromise(noisy.labels(capture, { mortonCode(middle) }), noisy.octree, what + ", further points", 8);
+      const LatticeLabels further = noisy.labels(capture, { mortonCode(middle), mortonCode(before) }); // in no order
+      expectPromise(further, noisy.octree, what + ", further points", 16);
+      for (int n = 0; n < 8; ++n)
+      {
+        const LatticePoint o = cornerOffset(n);
+        EXPECT_GE(further.shell().findCell({ middle.i - o.i, middle.j - o.j, middle.k - o.k }), 0) << what;
+        EXPECT_GE(further.shell().findCell({ before.i - o.i, before.j - o.j, before.k - o.k }), 0) << what;
+      }
     }
   }
   EXPECT_GE(fields, 3);
