@@ -259,7 +259,8 @@ void FieldSmoother::smooth(BrickField& field, double sigma, float most, Executio
   }
   if (this->Size < field.size())
   {
-    this->From.reset(); // before there is more
+    this->Size = 0; // as long as not both are there
+    this->From.reset();
     this->To.reset();
     this->From.reset(new float[field.size()]);
     this->To.reset(new float[field.size()]);

@@ -135,6 +135,18 @@ void pinWhereBricksEnd(const Octree& octree, BrickField& field, Execution& execu
     });
 }
 
+/** Those of some codes for whose numbers a test holds, as indicesWhereTests() has it. */
+template <typename MakeTest>
+std::vector<std::uint64_t> codesWhere(const std::vector<std::uint64_t>& codes, Execution& execution, const MakeTest& makeTest)
+{
+  std::vector<std::uint64_t> some;
+  for (const std::int32_t n : indicesWhereTests(codes.size(), 4096, execution, makeTest))
+  {
+    some.push_back(codes[std::size_t(n)]);
+  }
+  return some;
+}
+
 /** Last-generation inside octants of `octree` without an inside corner by the labels' source: they need covering too. */
 std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLabels& labels, Execution& execution)
 {
@@ -152,12 +164,7 @@ std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLa
       return !any;
     };
   };
-  std::vector<std::uint64_t> cells;
-  for (const std::int32_t n : indicesWhereTests(inside.size(), 4096, execution, makeTest))
-  {
-    cells.push_back(inside[std::size_t(n)]);
-  }
-  return cells;
+  return codesWhere(inside, execution, makeTest);
 }
 
 /** Label those of some points outside that are corners of the shell. */
@@ -176,18 +183,10 @@ void labelOutside(LatticeLabels& labels, const std::vector<std::uint64_t>& point
 /** The cells of a block, a bit each, that have all of their corners inside. */
 std::uint64_t cellsInside(std::uint64_t block, const LatticeLabels& labels)
 {
-  std::array<std::uint64_t, 8> corners{};
-  for (unsigned n = 0; n < 8; ++n)
+  std::array<std::uint64_t, 8> corners;
+  for (int n = 0; n < 8; ++n)
   {
-    std::uint64_t other = block;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      if (n >> axis & 1)
-      {
-        besideBlock(other, axis, true, other);
-      }
-    }
-    corners[n] = labels.insideOfBlock(other);
+    corners[std::size_t(n)] = labels.insideOfBlock(mortonCode(fromMorton(block) + cornerOffset(n)));
   }
   bringCorners(corners);
   return std::accumulate(corners.begin(), corners.end(), ~std::uint64_t(0), std::bit_and<std::uint64_t>());
@@ -208,12 +207,7 @@ std::vector<std::uint64_t> cellsWithOutside(const std::vector<std::uint64_t>& ce
       return (whole >> (cells[n] & 63) & 1) == 0;
     };
   };
-  std::vector<std::uint64_t> some;
-  for (const std::int32_t n : indicesWhereTests(cells.size(), 4096, execution, makeTest))
-  {
-    some.push_back(cells[std::size_t(n)]);
-  }
-  return some;
+  return codesWhere(cells, execution, makeTest);
 }
 
 /**
@@ -247,12 +241,7 @@ std::vector<std::uint64_t> cellsMissingAround(const CornerShell& shell, const st
 {
   const std::vector<std::uint64_t> cells = cellsAround(points, execution);
   const auto isMissing = [&] { return [&, known = CodeCursor(shell.cells)](std::size_t n) mutable { return known.find(cells[n]) < 0; }; };
-  std::vector<std::uint64_t> missing;
-  for (const std::int32_t n : indicesWhereTests(cells.size(), 4096, execution, isMissing))
-  {
-    missing.push_back(cells[std::size_t(n)]);
-  }
-  return missing;
+  return codesWhere(cells, execution, isMissing);
 }
 
 CornerShell extendedShell(const CornerShell& shell, const std::vector<std::uint64_t>& points, Execution& execution)

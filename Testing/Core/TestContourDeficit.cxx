@@ -78,7 +78,10 @@ TEST(ContourDeficit, OfHalfOfThemWhereContoursAreNoisyAndOfAllWhereCamerasAreWro
       EXPECT_EQ(deficit.octants, deficitOf(one, isCamera ? thirds : first)) << isCamera << ", seed " << seed;
       EXPECT_EQ(one.correction.deficit, deficit.octants) << isCamera << ", seed " << seed;
       EXPECT_EQ(one.correction.alignment > 0.0, isCamera) << "seed " << seed;
-      EXPECT_NEAR(deficitOf(one, first), deficitOf(one, thirds), isCamera ? 1.0 : 0.2 * deficit.octants) << "seed " << seed;
+      if (!isCamera)
+      {
+        EXPECT_NEAR(deficit.octants, deficitOf(one, thirds), 0.2 * deficit.octants) << "seed " << seed;
+      }
     }
   }
 }

@@ -367,3 +367,32 @@ TEST(FieldCorrection, SameBytesForAnyNumberOfThreads)
     EXPECT_EQ(many.alignment, noisy.correction.alignment);
   }
 }
+
+/** With a sigma of 3.8 to 6 octants the lattice is coarser where contours alone are noisy; with less or more it is the same for both. */
+TEST(FieldCorrection, OnACoarserLatticeEarlierWhereNoCameraIsWrong)
+{
+  Execution execution;
+  Capture& capture = captureOf(SyntheticShape::Torus);
+  FieldCorrectionOptions chance, cameras;
+  chance.alignViews = cameras.alignViews = false;
+  chance.shiftNoise = 0.0;
+  cameras.shiftNoise = 1e9;
+  int between = 0, others = 0;
+  for (const double noise : { 0.8, 1.2, 2.0 })
+  {
+    for (const int depth : { 6, 8 })
+    {
+      capture.draw(noise, 0, 5);
+      const Corrected one(capture, chance, depth);
+      const FieldCorrection other = one.correct(cameras, execution);
+      ASSERT_TRUE(one.correction.field && other.field);
+      EXPECT_EQ(one.correction.deficit, other.deficit);
+      const double sigma = std::min(chance.greatestSmoothing * one.lattice.cells() / 128.0, chance.smoothing * other.deficit);
+      const bool isBetween = sigma >= 3.8 && sigma < 6.0;
+      EXPECT_EQ(one.correction.field->values() != other.field->values(), isBetween) << noise << " px, depth " << depth << ", sigma " << sigma;
+      ++(isBetween ? between : others);
+    }
+  }
+  EXPECT_GT(between, 0);
+  EXPECT_GT(others, 2);
+}
