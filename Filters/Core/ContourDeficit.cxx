@@ -29,12 +29,16 @@ TypicalShift typicalShift(const std::vector<ContourResidual>& residuals, const s
   return typical;
 }
 
-/** Do enough views tell that their shifts are by chance? */
-bool isByChance(const FieldViews& fieldViews, const std::vector<int>& views, std::vector<ContourResidual> residuals, double shiftNoise)
+int countSaying(const std::vector<ContourResidual>& residuals)
 {
-  const auto saying = std::count_if(residuals.begin(), residuals.end(), [](const ContourResidual& residual) { return residual.count > 0; });
+  return int(std::count_if(residuals.begin(), residuals.end(), [](const ContourResidual& residual) { return residual.count > 0; }));
+}
+
+/** Of residuals of `views`, some of which may say nothing. */
+double shareOfChance(const FieldViews& fieldViews, const std::vector<int>& views, std::vector<ContourResidual> residuals)
+{
   removeCommonShift(fieldViews, views, residuals);
-  return saying >= ViewsToJudgeBy && noiseShare(residuals) > SureOfChance * shiftNoise;
+  return noiseShare(residuals);
 }
 
 } // namespace
@@ -72,10 +76,12 @@ ContourDeficit::ContourDeficit(const FieldViews& fieldViews, const Mesh& surface
     }
   };
   measure(false);
+  this->chance = shareOfChance(fieldViews, some, this->residuals);
   if (some.size() > 2 && typicalResidual(this->residuals) >= NearShare * smallest &&
-    !isByChance(fieldViews, some, this->residuals, shiftNoise))
+    (countSaying(this->residuals) < ViewsToJudgeBy || this->chance <= SureOfChance * shiftNoise))
   {
     measure(true);
+    this->chance = shareOfChance(fieldViews, some, this->residuals);
   }
   this->octants = std::max(0.0, typicalResidual(this->residuals));
   this->shift = typicalShift(this->residuals, some, fieldViews);

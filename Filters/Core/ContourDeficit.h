@@ -31,8 +31,12 @@ struct ContourDeficit
   std::vector<ContourResidual> residuals; ///< of every third view; of those that were not asked one that says nothing
   double octants = 0.0;                   ///< 0 or more: how far the observed contours lie outside the surface's
   TypicalShift shift;
+  double chance = 0.0; ///< noiseShare() of the residuals without their common shift
 
   ContourDeficit() = default;
+  /** May cameras be wrong? `shiftNoise`: the share of chance from which on they are not; of few views nobody knows. */
+  bool mayBeCameras(double shiftNoise) const { return this->residuals.size() < std::size_t(ViewsToJudgeBy) || this->chance <= shiftNoise; }
+
   /**
    * `limit`: px of an octant, as contourResiduals() has it. Half of the views come first, by pairs, so that of two cameras which take turns both are among them: where they say less than a
    * third of `smallest`, octants, the others are not asked; nor where chance explains more than twice `shiftNoise` of the squares of their shifts, since contour noise is in all views alike.

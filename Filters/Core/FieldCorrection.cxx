@@ -105,20 +105,6 @@ struct Lengths
   double reach() const { return 4.0 * this->scale; } ///< distances are cut off there
 };
 
-/** Do residuals of `views` tell of wrong cameras? `residuals`: their common shift is taken out. */
-bool tellOfCameras(
-  const FieldViews& fieldViews, const std::vector<int>& views, std::vector<ContourResidual>& residuals, const FieldCorrectionOptions& options)
-{
-  removeCommonShift(fieldViews, views, residuals);
-  return noiseShare(residuals) <= options.shiftNoise;
-}
-
-/** May cameras be wrong, by the residuals of every third view? */
-bool mayBeCameras(const FieldViews& fieldViews, std::vector<ContourResidual> measured, const FieldCorrectionOptions& options)
-{
-  return measured.size() < std::size_t(ViewsToJudgeBy) || tellOfCameras(fieldViews, everyThirdView(fieldViews.size()), measured, options);
-}
-
 class Correction
 {
 public:
@@ -208,7 +194,8 @@ private:
         this->findLeast(1, execution);
       }
       auto residuals = isMeasured ? this->completed(measured, execution) : this->residuals(this->Least.contourMesh(execution), this->All, execution);
-      if (!tellOfCameras(this->Views, this->All, residuals, this->Options) && round == 0)
+      removeCommonShift(this->Views, this->All, residuals);
+      if (round == 0 && noiseShare(residuals) > this->Options.shiftNoise)
       {
         return false;
       }
@@ -459,7 +446,7 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
       measured.shift.pixels > FinestShift))
   {
     Phase correcting(execution, 0.3, 1.0);
-    const auto* residuals = mayBeCameras(fieldViews, measured.residuals, options) ? &measured.residuals : nullptr;
+    const auto* residuals = measured.mayBeCameras(options.shiftNoise) ? &measured.residuals : nullptr;
     correctOnCoarserLattice(surface, lattice, views, options, residuals, result, correcting);
   }
   execution.progress(1.0);

@@ -2,7 +2,7 @@
 #include "UncoveredShare.h"
 
 #include "MarchingCubesTable.h"
-#include "UnionFind.h"
+#include "UncoveredRegions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,8 @@ namespace silhouette
 namespace
 {
 
-constexpr double LeastSpeck = 4.0; ///< pixels
+constexpr double StatedFor = 128.0;  ///< cells a side of the lattice whose octants the following and the bridged distance are
+constexpr double LeastContact = 0.5; ///< octants: shorter ends and sides of a region are noise, such as a hole beside the contour
 
 /** A count for each pixel of how many boxes and spans hold it, kept as differences along both axes. */
 class CoverCount
@@ -45,7 +46,7 @@ public:
 
   /** Call `work(column, row)` for every pixel that nothing holds. */
   template <typename Work>
-  void forUncovered(const Work& work)
+  void forUncovered(const Work& work) const
   {
     std::vector<std::int32_t> held(this->Stride, 0);
     for (int row = 0; row < this->Height; ++row)
@@ -178,40 +179,6 @@ double pixelsPerOctant(const LatticeProjection& projection, const Lattice& latti
   return longest;
 }
 
-/** Number of pixels, given in row order, in 8-connected regions of at least `least` of them. */
-std::uint64_t pixelsOfRegions(const std::vector<std::pair<int, int>>& rowsAndColumns, double least)
-{
-  UnionFind sets(rowsAndColumns.size());
-  std::size_t above = 0;
-  for (std::size_t i = 0; i < rowsAndColumns.size(); ++i)
-  {
-    const auto [row, column] = rowsAndColumns[i];
-    if (i > 0 && rowsAndColumns[i - 1] == std::pair<int, int>(row, column - 1))
-    {
-      sets.unite(std::uint32_t(i - 1), std::uint32_t(i));
-    }
-    while (above < i && rowsAndColumns[above] < std::pair<int, int>(row - 1, column - 1))
-    {
-      ++above;
-    }
-    for (std::size_t n = above; n < i && rowsAndColumns[n] <= std::pair<int, int>(row - 1, column + 1); ++n)
-    {
-      sets.unite(std::uint32_t(n), std::uint32_t(i));
-    }
-  }
-  std::vector<std::uint32_t> sizes(rowsAndColumns.size(), 0);
-  for (std::size_t i = 0; i < sizes.size(); ++i)
-  {
-    ++sizes[sets.find(std::uint32_t(i))];
-  }
-  std::uint64_t pixels = 0;
-  for (const std::uint32_t size : sizes)
-  {
-    pixels += size >= least ? size : 0;
-  }
-  return pixels;
-}
-
 } // namespace
 
 double pixelsPerOctant(const PreparedViews& views, const Lattice& lattice)
@@ -263,23 +230,29 @@ double uncoveredShare(const Octree& octree, const PreparedView& view, const Latt
       }
     }
   }
-  std::vector<std::pair<int, int>> uncovered;
+  std::vector<RowColumn> uncovered;
+  BinaryImage covered{ view.width, view.height, std::vector<std::uint8_t>(std::size_t(view.width) * std::size_t(view.height), 1) };
   count.forUncovered(
     [&](int column, int row)
     {
+      covered.at(column, row) = 0;
       if (view.pixelVote(column, row) == Vote::Object)
       {
         uncovered.emplace_back(row, column);
       }
     });
-  const double speck = std::max(LeastSpeck, options.speckArea * octant * octant);
-  return double(pixelsOfRegions(uncovered, speck)) / double(objects);
+  LostPartLimits limits;
+  limits.area = std::max(limits.area, options.speckArea * octant * octant);
+  const double proportion = octant * std::max(1.0, octree.lattice.cells() / StatedFor);
+  limits.contact = std::max(limits.contact, LeastContact * proportion);
+  limits.distance = options.bridged * proportion;
+  return double(pixelsOfLostParts(uncovered, covered, limits)) / double(objects);
 }
 
 void check(const Octree& octree, const PreparedViews& views, const UncoveredShareOptions& options)
 {
   for (const auto& [name, value] : { std::pair<const char*, double>("reach", options.reach),
-         std::pair<const char*, double>("speck area", options.speckArea) })
+         std::pair<const char*, double>("speck area", options.speckArea), std::pair<const char*, double>("bridged distance", options.bridged) })
   {
     if (!(value >= 0.0) || std::isinf(value))
     {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * How much of the silhouettes does what survived the carving leave uncovered? Parts thinner than the noise
+ * Which parts of the silhouettes does what survived the carving leave uncovered? Parts thinner than the noise
  * are carved away by single views, and are then missing in all others: object pixels onto which no survivor
  * projects.
  */
@@ -27,14 +27,20 @@ struct UncoveredShareOptions
    * least four pixels are. Larger finds less.
    */
   double speckArea = 1.0;
+  /**
+   * Octants of a lattice of 128 cells, on finer ones in proportion, 0 or more: how far uncovered pixels may be from covered ones and yet be the skin that noise takes off all round. The
+   * default is as far as the local hulls take contours for each other's (FieldCorrection.h). Larger finds less.
+   */
+  double bridged = 3.0;
 };
 
 /**
- * For each view the share of its object pixels that no survivor of `octree` covers, 0 to 1; 0 where there are
+ * For each view the share of its object pixels in parts of it that no survivor of `octree` covers, 0 to 1; 0 where there are
  * none, and for a view that does not have the middle of the root cube in front of it.
  *
  * A survivor of the last generation covers the box around its projection, widened by the reach; a larger one
- * the projection itself. Uncovered pixels are joined to regions through sides and corners. Throws
+ * the projection itself. Uncovered pixels are joined to regions; those count that cut through the object, and pixels further from what is covered than
+ * can be bridged (UncoveredRegions.h): what noise takes off all round is for a surface to give back, and tolerance would give back too much. Throws
  * InvalidInput for an option out of range or an octree of other views, Cancelled. Cost: the pairs of survivor
  * and view, and a pass over the pixels.
  */

@@ -21,7 +21,7 @@
  * | | | field `CarvedByView` | double, 1 | a value a view: share of the root cube that the view carved |
  * | | | field `Piece`, `NumberOfPieces` | int, 1 | the piece of the octree that this is; the counts and shares above are the piece's, and add up |
  * | | | field `Dilation` | int, 1 | pixels by which the silhouettes were dilated; 0 without AutomaticTolerance |
- * | | | field `UncoveredShare`, `StrictUncoveredShare` | double, 1 | with AutomaticTolerance: share of the silhouettes' pixels, mean over the views, that no octant covers, of this octree and of one with BackgroundVotes and without dilation |
+ * | | | field `UncoveredShare`, `StrictUncoveredShare` | double, 1 | with AutomaticTolerance: share of the silhouettes' pixels, mean over the views, in parts that no octant covers, of this octree and of one with BackgroundVotes and without dilation |
  * | output 1 | vtkPartitionedDataSetCollection | as the input, further field arrays too | | the views used, prepared: filters further down do no work on them twice; dilated ones where `Dilation` is above 0 |
  *
  * A matrix P maps a world point to a pixel, w (u, v, 1) = P (X, Y, Z, 1), with w > 0 in front of the camera,
@@ -163,8 +163,8 @@ public:
 
   ///@{
   /**
-   * Whether to look if the octree covers the silhouettes, and where it does not, because parts thinner than
-   * the noise were cut, to carve with the least tolerance that covers them: background votes from
+   * Whether to look if the octree covers the silhouettes, and where parts of them are left out, because they are thinner than
+   * the noise and were cut (what noise takes off all round is left to the surface), to carve with the least tolerance that covers them: background votes from
    * BackgroundVotes up to a tenth of the views, and if these do not do it, silhouettes dilated by up to half
    * an octant besides. Default off. On, the octree's field `BackgroundVotes` says what was taken: a
    * vtkVotingMarchingCubes further down needs the share that this leaves, (views - votes) / views. Clean

@@ -65,6 +65,24 @@ TEST(CarvingTolerance, CleanSilhouettesAreCarvedStrictlyAndOnce)
   EXPECT_TRUE(sameOctants(carving.octree, carveViews(prepareViews(rodOnSlab()), unitCube(), 6)));
 }
 
+TEST(CarvingTolerance, WhatNoiseTakesOffAllRoundIsLeftToTheSurface)
+{
+  // Every other silhouette is ten pixels, three octants, too large: these lack a skin, and no part.
+  auto views = viewsOf(boxMesh({ -0.8, -0.8, -0.9 }, { 0.8, 0.8, -0.5 }), swayingRing(Count, Size), Size);
+  Execution execution;
+  const auto larger = dilatedSilhouettes(prepareViews(views), 10, execution);
+  for (std::size_t i = 0; i < views.size(); i += 2)
+  {
+    views[i] = larger[i];
+  }
+  CarvingToleranceOptions options;
+  const TolerantCarving carving = tolerant(views, options);
+  EXPECT_EQ(carving.carves, 1);
+  EXPECT_EQ(carving.octree.backgroundVotes, 0);
+  options.measure.bridged = 0.0; // a skin is lost, too
+  EXPECT_GT(tolerant(views, options).strictUncovered, options.uncoveredShare);
+}
+
 TEST(CarvingTolerance, AsManyVotesAsViewsCutARodAreTheLeastThatBringItBack)
 {
   for (const int views : { 1, 2 })
@@ -103,11 +121,11 @@ TEST(CarvingTolerance, DilationBringsTogetherWhatMatricesTookApart)
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
-    shift(0, 2) = i % 2 ? 5.5 : -5.5;
+    shift(0, 2) = i % 2 ? 8.5 : -8.5;
     views[i].projection = shift * views[i].projection;
   }
   CarvingToleranceOptions options;
-  options.greatestDilation = 2.0;
+  options.greatestDilation = 4.0;
   const TolerantCarving carving = tolerant(views, options);
   EXPECT_EQ(carving.octree.backgroundVotes, 2);
   EXPECT_GT(carving.dilation, 0);
