@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace silhouette
 {
@@ -248,9 +249,9 @@ BinaryImage extractSilhouette(const ColourImage& image, const ExtractionOptions&
   {
     std::for_each(out.pixels.begin(), out.pixels.end(), [](std::uint8_t& value) { value = value == 0; });
   }
-  out = applyMorphology(out, options.morphology);
-  out = options.largestRegion ? largestRegion(out) : out;
-  return options.fillHoles > 0 ? fillHoles(out, options.fillHoles) : out;
+  out = options.morphology.empty() ? std::move(out) : applyMorphology(out, options.morphology);
+  out = options.largestRegion ? largestRegion(out) : std::move(out);
+  return options.fillHoles > 0 ? fillHoles(out, options.fillHoles) : std::move(out);
 }
 
 } // namespace silhouette

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SilhouetteComparison.h"
 
+#include "ItemWork.h"
 #include "MeshCheck.h"
+#include "SharedWork.h"
 #include "SilhouetteRendering.h"
 
 #include <Eigen/Geometry>
@@ -30,10 +32,10 @@ void computeShares(ViewAgreement& a)
   }
 }
 
-ViewAgreement compareView(const Mesh& mesh, const View& view)
+ViewAgreement compareView(const Mesh& mesh, const View& view, SilhouetteRenderer& renderer)
 {
   const BinaryImage& silhouette = view.silhouette;
-  const BinaryImage rendered = renderSilhouette(mesh, view.projection, silhouette.width, silhouette.height);
+  const BinaryImage& rendered = renderer.render(mesh, view.projection, silhouette.width, silhouette.height);
   ViewAgreement result;
   result.name = view.name;
   for (std::size_t i = 0; i < silhouette.pixels.size(); ++i)
@@ -49,7 +51,7 @@ ViewAgreement compareView(const Mesh& mesh, const View& view)
   return result;
 }
 
-void checkView(const Mesh& mesh, const View& view)
+void checkView(const View& view)
 {
   const BinaryImage& image = view.silhouette;
   if (image.width < 1 || image.height < 1 ||
@@ -58,13 +60,15 @@ void checkView(const Mesh& mesh, const View& view)
     throw InvalidInput("view " + view.name + ": " + std::to_string(image.pixels.size()) +
       " pixels in an image of " + std::to_string(image.width) + " x " + std::to_string(image.height));
   }
-  // Rendering throws where a point does not project to finite numbers, and loops must not throw.
-  for (const Vector3& p : mesh.points)
+}
+
+/** Rendering throws where a point does not project to finite numbers, but does not name the view. */
+void checkProjection(const Mesh& mesh, const View& view)
+{
+  if (!std::all_of(
+        mesh.points.begin(), mesh.points.end(), [&view](const Vector3& p) { return (view.projection * p.homogeneous()).allFinite(); }))
   {
-    if (!(view.projection * p.homogeneous()).allFinite())
-    {
-      throw InvalidInput("view " + view.name + ": the mesh does not project to finite numbers");
-    }
+    throw InvalidInput("view " + view.name + ": the mesh does not project to finite numbers");
   }
 }
 
@@ -76,21 +80,21 @@ std::vector<ViewAgreement> compareSilhouettes(
   checkMesh(mesh);
   for (const View& view : views)
   {
-    checkView(mesh, view);
+    checkView(view);
   }
+  Phase checking(execution, 0.0, 0.1);
+  forItems(views.size(), checking, [&](std::size_t v) { checkProjection(mesh, views[v]); });
   std::vector<ViewAgreement> result(views.size());
   // A few views at a time, so that a caller who wants to stop need not wait for all.
   const std::size_t step = 4 * std::size_t(std::max(execution.threads(), 1));
   for (std::size_t begin = 0; begin < views.size(); begin += step)
   {
-    execution.checkpoint(double(begin) / double(views.size()));
-    execution.forRanges(std::min(step, views.size() - begin), 1,
-      [&](std::size_t first, std::size_t last)
+    execution.checkpoint(0.1 + 0.9 * double(begin) / double(views.size()));
+    shareWork(std::min(step, views.size() - begin), execution,
+      [&]
       {
-        for (std::size_t v = begin + first; v < begin + last; ++v)
-        {
-          result[v] = compareView(mesh, views[v]);
-        }
+        return [&, renderer = SilhouetteRenderer()](std::size_t n) mutable
+        { result[begin + n] = compareView(mesh, views[begin + n], renderer); };
       });
   }
   execution.checkpoint(1.0);

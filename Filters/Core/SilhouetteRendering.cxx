@@ -42,9 +42,9 @@ Vector3 projectPoint(const Projection& P, const Vector3& p)
   return h;
 }
 
-std::vector<Vector3> projectPoints(const Mesh& mesh, const Projection& projection)
+void projectPoints(const Mesh& mesh, const Projection& projection, std::vector<Vector3>& result)
 {
-  std::vector<Vector3> result;
+  result.clear();
   result.reserve(mesh.points.size());
   for (const Vector3& p : mesh.points)
   {
@@ -55,7 +55,6 @@ std::vector<Vector3> projectPoints(const Mesh& mesh, const Projection& projectio
         "point " + std::to_string(result.size() - 1) + " does not project to finite numbers");
     }
   }
-  return result;
 }
 
 /**
@@ -134,60 +133,118 @@ std::array<double, 2> rowSpan(const Polygon& polygon, double row)
   return span;
 }
 
-void fill(const Polygon& polygon, BinaryImage& image)
+/** The box of the pixels of an image whose centres may lie in what has the given corners. */
+ImageBox boxOf(const Vector2* corners, int count, int width, int height)
 {
-  double top = std::numeric_limits<double>::infinity();
-  double bottom = -top;
-  for (int c = 0; c < polygon.size; ++c)
+  ImageBox box{ width, height, -1, -1 };
+  for (int c = 0; c < count; ++c)
   {
-    top = std::min(top, polygon.corner[c][1]);
-    bottom = std::max(bottom, polygon.corner[c][1]);
+    // Compared as doubles first: a coordinate near the camera's plane may be too large for an int.
+    const Vector2& p = corners[c];
+    box.include({ int(std::clamp(std::ceil(p[0]), 0.0, double(width))), int(std::clamp(std::ceil(p[1]), 0.0, double(height))),
+      int(std::clamp(std::floor(p[0]), -1.0, width - 1.0)), int(std::clamp(std::floor(p[1]), -1.0, height - 1.0)) });
   }
-  // Compared as doubles first: a coordinate near the camera's plane may be too large for an int.
-  const double firstRow = std::max(std::ceil(top), 0.0);
-  const double lastRow = std::min(std::floor(bottom), image.height - 1.0);
-  for (double row = firstRow; row <= lastRow; row += 1.0)
+  return box;
+}
+
+/** Is a row of an image object from one column to another? */
+bool isFilled(const BinaryImage& image, int row, int first, int last)
+{
+  const std::uint8_t* pixels = &image.pixels[std::size_t(row) * std::size_t(image.width)];
+  return std::all_of(pixels + first, pixels + last + 1, [](std::uint8_t pixel) { return pixel != 0; });
+}
+
+/** As of most triangles of a fine mesh. */
+bool isFilled(const BinaryImage& image, const ImageBox& box)
+{
+  int row = box.top;
+  while (row <= box.bottom && (box.left > box.right || isFilled(image, row, box.left, box.right)))
   {
+    ++row;
+  }
+  return row > box.bottom;
+}
+
+/** `box`: of the polygon. */
+void fill(const Polygon& polygon, const ImageBox& box, BinaryImage& image)
+{
+  for (int row = box.top; row <= box.bottom; ++row)
+  {
+    if (isFilled(image, row, box.left, box.right))
+    {
+      continue;
+    }
     const std::array<double, 2> span = rowSpan(polygon, row);
     const double first = std::max(std::ceil(span[0]), 0.0);
     const double last = std::min(std::floor(span[1]), image.width - 1.0);
     if (first <= last)
     {
-      std::memset(&image.at(int(first), int(row)), 1, std::size_t(last - first) + 1);
+      std::memset(&image.at(int(first), row), 1, std::size_t(last - first) + 1);
     }
   }
 }
 
 } // namespace
 
-BinaryImage renderSilhouette(const Mesh& mesh, const Projection& projection, int width, int height)
+const BinaryImage& SilhouetteRenderer::render(const Mesh& mesh, const Projection& projection, int width, int height)
 {
   if (width < 1 || height < 1)
   {
     throw InvalidInput("an image of " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
   }
   checkMesh(mesh);
-  BinaryImage image;
-  image.width = width;
-  image.height = height;
-  image.pixels.assign(std::size_t(width) * height, 0);
+  this->Image.width = width;
+  this->Image.height = height;
+  this->Image.pixels.assign(std::size_t(width) * height, 0);
 
-  const std::vector<Vector3> points = projectPoints(mesh, projection);
+  projectPoints(mesh, projection, this->Points);
   double greatest = 0.0;
-  for (const Vector3& p : points)
+  for (const Vector3& p : this->Points)
   {
     greatest = std::max(greatest, p[2]);
   }
   const double nearPlane = NearShare * greatest;
   if (!(nearPlane > 0.0))
   {
-    return image; // everything is behind the camera
+    return this->Image; // everything is behind the camera
   }
-  for (const Triangle& triangle : mesh.triangles)
+  const bool allSeen = std::all_of(this->Points.begin(), this->Points.end(), [nearPlane](const Vector3& p) { return p[2] > nearPlane; });
+  allSeen ? this->fillSeen(mesh.triangles) : this->fillCut(mesh.triangles, nearPlane);
+  return this->Image;
+}
+
+void SilhouetteRenderer::fillSeen(const std::vector<Triangle>& triangles)
+{
+  this->Pixels.clear();
+  this->Boxes.clear();
+  for (const Vector3& p : this->Points)
   {
-    fill(cutByNearPlane(points, triangle, nearPlane), image);
+    this->Pixels.emplace_back(p[0] / p[2], p[1] / p[2]);
+    this->Boxes.push_back(boxOf(&this->Pixels.back(), 1, this->Image.width, this->Image.height));
   }
-  return image;
+  for (const Triangle& t : triangles)
+  {
+    ImageBox box = this->Boxes[t[0]];
+    box.include(this->Boxes[t[1]]);
+    box.include(this->Boxes[t[2]]);
+    if (!isFilled(this->Image, box))
+    {
+      fill({ { this->Pixels[t[0]], this->Pixels[t[1]], this->Pixels[t[2]] }, 3 }, box, this->Image);
+    }
+  }
+}
+
+void SilhouetteRenderer::fillCut(const std::vector<Triangle>& triangles, double nearPlane)
+{
+  for (const Triangle& t : triangles)
+  {
+    const Polygon polygon = cutByNearPlane(this->Points, t, nearPlane);
+    const ImageBox box = boxOf(polygon.corner.data(), polygon.size, this->Image.width, this->Image.height);
+    if (!isFilled(this->Image, box))
+    {
+      fill(polygon, box, this->Image);
+    }
+  }
 }
 
 } // namespace silhouette

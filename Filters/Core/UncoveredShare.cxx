@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "UncoveredShare.h"
 
-#include "MarchingCubesTable.h"
+#include "OctantCover.h"
 #include "UncoveredRegions.h"
+#include "Vectorised.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <string>
 
 namespace silhouette
@@ -17,146 +18,15 @@ namespace
 constexpr double StatedFor = 128.0;  ///< cells a side of the lattice whose octants the following and the bridged distance are
 constexpr double LeastContact = 0.5; ///< octants: shorter ends and sides of a region are noise, such as a hole beside the contour
 
-/** A count for each pixel of how many boxes and spans hold it, kept as differences along both axes. */
-class CoverCount
+/** Is some of the pixels object and held by nothing? */
+SILHOUETTE_VECTORISED bool anyUncovered(const std::int32_t* held, const std::uint8_t* object, int count)
 {
-public:
-  CoverCount(int width, int height)
-    : Width(width)
-    , Height(height)
-    , Stride(std::size_t(width) + 1)
-    , Differences(Stride * (std::size_t(height) + 1), 0)
+  int any = 0;
+  for (int n = 0; n < count; ++n)
   {
+    any |= held[n] == 0 ? int(object[n]) : 0;
   }
-
-  /** All pixels whose squares the closed box touches; it may reach outside. */
-  void add(double leastX, double greatestX, double leastY, double greatestY)
-  {
-    if (!(greatestX >= -0.5 && greatestY >= -0.5 && leastX < this->Width && leastY < this->Height))
-    {
-      return;
-    }
-    const std::size_t c0 = first(leastX), c1 = end(greatestX, this->Width);
-    const std::size_t r0 = first(leastY), r1 = end(greatestY, this->Height);
-    ++this->Differences[r0 * this->Stride + c0];
-    --this->Differences[r0 * this->Stride + c1];
-    --this->Differences[r1 * this->Stride + c0];
-    ++this->Differences[r1 * this->Stride + c1];
-  }
-
-  /** Call `work(column, row)` for every pixel that nothing holds. */
-  template <typename Work>
-  void forUncovered(const Work& work) const
-  {
-    std::vector<std::int32_t> held(this->Stride, 0);
-    for (int row = 0; row < this->Height; ++row)
-    {
-      std::int32_t along = 0;
-      for (int column = 0; column < this->Width; ++column)
-      {
-        along += this->Differences[std::size_t(row) * this->Stride + column];
-        held[column] += along;
-        if (held[column] == 0)
-        {
-          work(column, row);
-        }
-      }
-    }
-  }
-
-  int height() const { return this->Height; }
-
-private:
-  static std::size_t first(double least) { return std::size_t(std::max(0.0, std::floor(least + 0.5))); }
-  static std::size_t end(double greatest, int size)
-  {
-    return std::size_t(std::min(double(size - 1), std::floor(greatest + 0.5))) + 1;
-  }
-
-  int Width;
-  int Height;
-  std::size_t Stride;
-  std::vector<std::int32_t> Differences;
-};
-
-struct Point
-{
-  double x, y;
-};
-
-/** The projected corners of an octant; false where one is not in front of the camera. */
-bool project(
-  const LatticeProjection& projection, const LatticePoint& lowest, std::int32_t size, Point (&out)[8])
-{
-  for (int c = 0; c < 8; ++c)
-  {
-    const LatticePoint d = cornerOffset(c);
-    const auto h = projection({ lowest.i + d.i * size, lowest.j + d.j * size, lowest.k + d.k * size });
-    if (!(h.W > projection.minimumDepth))
-    {
-      return false;
-    }
-    out[c] = { h.U / h.W, h.V / h.W };
-  }
-  return true;
-}
-
-/**
- * The box around a last-generation octant's projection, widened by `reach` pixels. About its middle the projection
- * is as good as linear over an octant, which saves seven divisions of eight.
- */
-void addLeaf(const LatticeProjection& projection, const LatticePoint& cell, double reach, CoverCount& count)
-{
-  const auto& step = projection.step;
-  auto h = projection(cell);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    h.U += 0.5 * step[axis][0];
-    h.V += 0.5 * step[axis][1];
-    h.W += 0.5 * step[axis][2];
-  }
-  if (!(h.W > projection.minimumDepth))
-  {
-    return;
-  }
-  const double over = 1.0 / h.W, x = h.U * over, y = h.V * over;
-  double halfWidth = 0.0, halfHeight = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    halfWidth += std::abs(step[axis][0] - x * step[axis][2]);
-    halfHeight += std::abs(step[axis][1] - y * step[axis][2]);
-  }
-  halfWidth = 0.5 * halfWidth * over + reach;
-  halfHeight = 0.5 * halfHeight * over + reach;
-  count.add(x - halfWidth, x + halfWidth, y - halfHeight, y + halfHeight);
-}
-
-/**
- * The polygon, row by row at the rows' middles: what it leaves out at its border the octants around it cover.
- */
-void addPolygon(const Point (&p)[8], CoverCount& count)
-{
-  const auto y = std::minmax_element(p, p + 8, [](const Point& a, const Point& b) { return a.y < b.y; });
-  const int from = int(std::clamp(std::ceil(y.first->y), 0.0, double(count.height())));
-  const int to = int(std::clamp(std::floor(y.second->y), -1.0, double(count.height() - 1)));
-  for (int row = from; row <= to; ++row)
-  {
-    double least = std::numeric_limits<double>::infinity(), greatest = -least;
-    for (const auto& edge : edgeCorners)
-    {
-      const Point a = p[edge[0]], b = p[edge[1]];
-      if ((a.y <= row) != (b.y <= row))
-      {
-        const double x = a.x + (row - a.y) / (b.y - a.y) * (b.x - a.x);
-        least = std::min(least, x);
-        greatest = std::max(greatest, x);
-      }
-    }
-    if (least <= greatest)
-    {
-      count.add(least, greatest, row, row);
-    }
-  }
+  return any != 0;
 }
 
 /**
@@ -166,15 +36,15 @@ void addPolygon(const Point (&p)[8], CoverCount& count)
 double pixelsPerOctant(const LatticeProjection& projection, const Lattice& lattice)
 {
   const std::int32_t middle = lattice.cells() / 2;
-  Point p[8];
-  if (!project(projection, { middle, middle, middle }, 1, p))
+  Vector2 p[8];
+  if (!projectOctant(projection, { middle, middle, middle }, 1, p))
   {
     return 0.0;
   }
   double longest = 0.0;
   for (const int neighbour : { 1, 2, 4 })
   {
-    longest = std::max(longest, std::hypot(p[neighbour].x - p[0].x, p[neighbour].y - p[0].y));
+    longest = std::max(longest, (p[neighbour] - p[0]).norm());
   }
   return longest;
 }
@@ -198,56 +68,106 @@ double pixelsPerOctant(const PreparedViews& views, const Lattice& lattice)
 namespace
 {
 
-/** One view's share. */
-double uncoveredShare(const Octree& octree, const PreparedView& view, const LatticeProjection& projection,
-  const UncoveredShareOptions& options)
+/** Measures views, one after another, in memory that it keeps. */
+class ShareMeasure
 {
-  const std::int64_t objects = view.objectPixels(0, view.width, 0, view.height);
-  const double octant = pixelsPerOctant(projection, octree.lattice);
-  if (objects == 0 || octant == 0.0)
+public:
+  ShareMeasure(const Octree& octree, const UncoveredShareOptions& options)
+    : TheOctree(&octree)
+    , Options(&options)
   {
-    return 0.0;
   }
-  CoverCount count(view.width, view.height);
-  const int depth = octree.lattice.depth;
-  for (int g = octree.treeGeneration; g <= depth; ++g)
+
+  double share(const PreparedView& view, const LatticeProjection& projection)
   {
-    const Generation& generation = octree.generations[g];
-    for (std::size_t i = 0; i < generation.size(); ++i)
+    const std::int64_t objects = view.objectPixels(0, view.width, 0, view.height);
+    const double octant = pixelsPerOctant(projection, this->TheOctree->lattice);
+    if (objects == 0 || octant == 0.0)
     {
-      const OctantState state = generation.state[i];
-      const LatticePoint at = fromMorton(generation.code[i]);
+      return 0.0;
+    }
+    const double proportion = octant * std::max(1.0, this->TheOctree->lattice.cells() / StatedFor);
+    LostPartLimits limits;
+    limits.area = std::max(limits.area, this->Options->speckArea * octant * octant);
+    limits.contact = std::max(limits.contact, LeastContact * proportion);
+    limits.distance = this->Options->bridged * proportion;
+    this->Count.begin(windowOf(view, limits.distance));
+    this->addSurvivors(projection, this->Options->reach * octant);
+    this->findUncovered(view);
+    return double(this->Uncovered.size()) < limits.area ? 0.0 : double(this->lostPixels(limits)) / double(objects);
+  }
+
+private:
+  /** The object and all that is not too far to tell how far its pixels are from what is covered. */
+  static ImageWindow windowOf(const PreparedView& view, double distance)
+  {
+    const auto margin = int(std::min(std::ceil(distance), double(std::max(view.width, view.height)))) + 2;
+    const auto& box = view.objectBox;
+    return { std::max(box[0] - margin, 0), std::min(box[1] + margin + 1, view.width), std::max(box[2] - margin, 0),
+      std::min(box[3] + margin + 1, view.height) };
+  }
+
+  void findUncovered(const PreparedView& view)
+  {
+    const ImageWindow& window = this->Count.window();
+    this->Uncovered.clear();
+    this->Count.forRows(
+      [&](int row, const std::int32_t* held)
+      {
+        const std::uint8_t* object = view.silhouette() + std::size_t(window.top + row) * std::size_t(view.width) + window.left;
+        const bool isAny = anyUncovered(held, object, window.width());
+        for (int column = 0; isAny && column < window.width(); ++column)
+        {
+          if (held[column] == 0 && object[column] != 0)
+          {
+            this->Uncovered.emplace_back(row, column);
+          }
+        }
+      });
+  }
+
+  std::uint64_t lostPixels(const LostPartLimits& limits)
+  {
+    const ImageWindow& window = this->Count.window();
+    this->Covered.width = window.width();
+    this->Covered.height = window.height();
+    this->Covered.pixels.clear();
+    this->Count.forRows(
+      [&](int, const std::int32_t* held)
+      { std::transform(held, held + window.width(), std::back_inserter(this->Covered.pixels), [](std::int32_t count) { return std::uint8_t(count != 0); }); });
+    return pixelsOfLostParts(this->Uncovered, this->Covered, limits);
+  }
+
+  void addSurvivors(const LatticeProjection& projection, double reach)
+  {
+    const int depth = this->TheOctree->lattice.depth;
+    for (int g = this->TheOctree->treeGeneration; g <= depth; ++g)
+    {
+      const Generation& generation = this->TheOctree->generations[g];
       const int shift = depth - g;
-      Point p[8];
-      if (g == depth && state != OctantState::Background)
+      for (std::size_t n = 0; n < generation.size(); ++n)
       {
-        addLeaf(projection, at, options.reach * octant, count);
-      }
-      else if (g < depth && state == OctantState::Inside &&
-        project(projection, { at.i << shift, at.j << shift, at.k << shift }, 1 << shift, p))
-      {
-        addPolygon(p, count);
+        const OctantState state = generation.state[n];
+        if (g == depth ? state != OctantState::Background : state == OctantState::Inside)
+        {
+          const LatticePoint at = fromMorton(generation.code[n]);
+          this->Octants.add({ at.i << shift, at.j << shift, at.k << shift });
+        }
+        if (this->Octants.count == OctantBlock::Most || n + 1 == generation.size())
+        {
+          g == depth ? addLeaves(projection, reach, this->Octants, this->Count) : addOctants(projection, 1 << shift, this->Octants, this->Count);
+        }
       }
     }
   }
-  std::vector<RowColumn> uncovered;
-  BinaryImage covered{ view.width, view.height, std::vector<std::uint8_t>(std::size_t(view.width) * std::size_t(view.height), 1) };
-  count.forUncovered(
-    [&](int column, int row)
-    {
-      covered.at(column, row) = 0;
-      if (view.pixelVote(column, row) == Vote::Object)
-      {
-        uncovered.emplace_back(row, column);
-      }
-    });
-  LostPartLimits limits;
-  limits.area = std::max(limits.area, options.speckArea * octant * octant);
-  const double proportion = octant * std::max(1.0, octree.lattice.cells() / StatedFor);
-  limits.contact = std::max(limits.contact, LeastContact * proportion);
-  limits.distance = options.bridged * proportion;
-  return double(pixelsOfLostParts(uncovered, covered, limits)) / double(objects);
-}
+
+  const Octree* TheOctree;
+  const UncoveredShareOptions* Options;
+  CoverCount Count;
+  OctantBlock Octants;
+  std::vector<RowColumn> Uncovered;
+  BinaryImage Covered;
+};
 
 void check(const Octree& octree, const PreparedViews& views, const UncoveredShareOptions& options)
 {
@@ -280,14 +200,16 @@ std::vector<double> uncoveredShares(const Octree& octree, const PreparedViews& v
   }
   const LatticeViews latticeViews(views, octree.lattice);
   const int batch = std::max(1, execution.threads());
+  std::vector<ShareMeasure> measures(std::size_t(batch), ShareMeasure(octree, options)); // one for each worker of a batch
   for (int done = 0; done < views.size(); done += batch)
   {
     execution.forRanges(std::size_t(std::min(batch, views.size() - done)), 1,
       [&](std::size_t first, std::size_t last)
       {
-        for (int view = done + int(first); view < done + int(last); ++view)
+        for (std::size_t n = first; n < last; ++n)
         {
-          shares[view] = uncoveredShare(octree, views[view], latticeViews.projection(view), options);
+          const int view = done + int(n);
+          shares[std::size_t(view)] = measures[n].share(views[view], latticeViews.projection(view));
         }
       });
     execution.checkpoint(double(std::min(done + batch, views.size())) / views.size());

@@ -4,6 +4,7 @@
 #include "AutomaticBounds.h"
 #include "FieldValues.h"
 #include "ImageFiles.h"
+#include "ItemWork.h"
 #include "ProjectiveCameras.h"
 
 #include "vtkCellArray.h"
@@ -126,22 +127,27 @@ void addFrustum(const ImageView& view, int index, const Vector3* target, vtkPoly
 std::vector<ImageView> readCapture(const CaptureDescription& capture, CaptureImageChoice choice,
                                    std::vector<std::string>& warnings, Execution& execution)
 {
-  std::vector<ImageView> views;
-  std::vector<Vector2> pixels;
-  for (std::size_t i = 0; i < capture.entries.size(); ++i)
+  const std::size_t count = capture.entries.size();
+  std::vector<ImageView> views(count);
+  std::vector<Vector2> pixels(count);
+  std::vector<std::vector<std::string>> heard(count);
+  forItems(count, execution,
+           [&](std::size_t i)
+           {
+             const CaptureEntry& entry = capture.entries[i];
+             const bool mask = takesMask(entry, i, choice);
+             checkSameSize(entry);
+             views[i] = {readImage(mask ? entry.mask : entry.photograph, heard[i]), entry.name, entry.projection};
+             setField(views[i].image, IsMaskName, int(mask));
+             setField(views[i].image, SignIsFreeName, int(capture.freeSign));
+             if (capture.freeSign)
+             {
+               pixels[i] = objectPixel(views[i], i);
+             }
+           });
+  for (const std::vector<std::string>& some : heard)
   {
-    const CaptureEntry& entry = capture.entries[i];
-    const bool mask = takesMask(entry, i, choice);
-    checkSameSize(entry);
-    ImageView view{readImage(mask ? entry.mask : entry.photograph, warnings), entry.name, entry.projection};
-    setField(view.image, IsMaskName, int(mask));
-    setField(view.image, SignIsFreeName, int(capture.freeSign));
-    views.push_back(std::move(view));
-    if (capture.freeSign)
-    {
-      pixels.push_back(objectPixel(views.back(), i));
-    }
-    execution.checkpoint(double(i + 1) / double(capture.entries.size()));
+    warnings.insert(warnings.end(), some.begin(), some.end());
   }
   if (capture.freeSign)
   {

@@ -2,6 +2,7 @@
 #include "vtkSilhouetteExtractor.h"
 
 #include "CaptureImages.h"
+#include "ItemWork.h"
 #include "PieceRequests.h"
 #include "SilhouetteExtraction.h"
 #include "ViewConversion.h"
@@ -15,9 +16,6 @@
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 
-#include <algorithm>
-#include <exception>
-
 using namespace silhouette::modeling;
 
 class vtkSilhouetteExtractor::vtkInternals
@@ -28,42 +26,6 @@ public:
 
 namespace
 {
-
-/** Extract views [first, last) of `views` side by side; the first view's error, in their order, is thrown. */
-void extractSome(const std::vector<ImageView>& views, std::size_t first, std::size_t last,
-                 const silhouette::ExtractionOptions& options, silhouette::Execution& execution,
-                 std::vector<silhouette::View>& out)
-{
-  std::vector<std::exception_ptr> errors(last - first);
-  execution.forRanges(last - first, 1,
-                      [&](std::size_t from, std::size_t to)
-                      {
-                        for (std::size_t i = from; i < to; ++i)
-                        {
-                          try // whichever thread comes to it first, the first view counts
-                          {
-                            const ImageView& view = views[first + i];
-                            silhouette::View& result = out[first + i];
-                            result.silhouette = silhouette::extractSilhouette(
-                                colourImage(view, first + i), options, isMask(view),
-                                view.name.empty() ? silhouette::describeView(first + i, view.name) : view.name);
-                            result.name = view.name;
-                            result.projection = view.projection;
-                          }
-                          catch (...)
-                          {
-                            errors[i] = std::current_exception();
-                          }
-                        }
-                      });
-  for (const std::exception_ptr& error : errors)
-  {
-    if (error)
-    {
-      std::rethrow_exception(error);
-    }
-  }
-}
 
 /** The silhouettes as images; every other field array of the input stays with its view. */
 std::vector<ImageView> silhouetteImages(const std::vector<ImageView>& views,
@@ -172,13 +134,16 @@ int vtkSilhouetteExtractor::RequestData(vtkInformation* request, vtkInformationV
 
     const std::vector<ImageView> views = imageViews(input);
     std::vector<silhouette::View> silhouettes(views.size());
-    const auto batch = static_cast<std::size_t>(execution.threads());
-    for (std::size_t first = 0; first < views.size(); first += batch)
-    {
-      const std::size_t last = std::min(views.size(), first + batch);
-      extractSome(views, first, last, options, execution, silhouettes);
-      execution.checkpoint(double(last) / double(views.size()));
-    }
+    silhouette::forItems(views.size(), execution,
+                         [&](std::size_t i)
+                         {
+                           const ImageView& view = views[i];
+                           silhouettes[i].silhouette = silhouette::extractSilhouette(
+                               colourImage(view, i), options, isMask(view),
+                               view.name.empty() ? silhouette::describeView(i, view.name) : view.name);
+                           silhouettes[i].name = view.name;
+                           silhouettes[i].projection = view.projection;
+                         });
     orientBySilhouettes(views, silhouettes);
     storeViews(silhouetteImages(views, silhouettes), output);
   };
