@@ -173,7 +173,12 @@ void writeMesh(vtkPolyData* mesh, const std::filesystem::path& file)
   const std::string format = formatOf(file);
   if (format == "vtp")
   {
-    writeWith<vtkXMLPolyDataWriter>(mesh, file, [](vtkXMLPolyDataWriter* writer) { writer->SetDataModeToAppended(); });
+    writeWith<vtkXMLPolyDataWriter>(mesh, file,
+      [](vtkXMLPolyDataWriter* writer)
+      {
+        writer->SetDataModeToAppended();
+        writer->SetCompressionLevel(1); // a third of the time, and 4 per cent more bytes
+      });
   }
   else if (format == "ply")
   {
