@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "MeshCheck.h"
+#include "Vectorised.h"
 
 #include <algorithm>
 #include <array>
@@ -134,7 +135,7 @@ std::array<double, 2> rowSpan(const Polygon& polygon, double row)
 }
 
 /** The box of the pixels of an image whose centres may lie in what has the given corners. */
-ImageBox boxOf(const Vector2* corners, int count, int width, int height)
+inline ImageBox boxOf(const Vector2* corners, int count, int width, int height)
 {
   ImageBox box{ width, height, -1, -1 };
   for (int c = 0; c < count; ++c)
@@ -166,7 +167,7 @@ bool isFilled(const BinaryImage& image, const ImageBox& box)
 }
 
 /** `box`: of the polygon. */
-void fill(const Polygon& polygon, const ImageBox& box, BinaryImage& image)
+SILHOUETTE_VECTORISED void fill(const Polygon& polygon, const ImageBox& box, BinaryImage& image)
 {
   for (int row = box.top; row <= box.bottom; ++row)
   {
@@ -181,6 +182,20 @@ void fill(const Polygon& polygon, const ImageBox& box, BinaryImage& image)
     {
       std::memset(&image.at(int(first), row), 1, std::size_t(last - first) + 1);
     }
+  }
+}
+
+/** Where homogeneous points fall, and the box of each. */
+SILHOUETTE_VECTORISED void placePoints(
+  const std::vector<Vector3>& points, int width, int height, std::vector<Vector2>& pixels, std::vector<ImageBox>& boxes)
+{
+  pixels.resize(points.size());
+  boxes.resize(points.size());
+  for (std::size_t n = 0; n < points.size(); ++n)
+  {
+    const Vector3& p = points[n];
+    pixels[n] = { p[0] / p[2], p[1] / p[2] };
+    boxes[n] = boxOf(&pixels[n], 1, width, height);
   }
 }
 
@@ -215,13 +230,7 @@ const BinaryImage& SilhouetteRenderer::render(const Mesh& mesh, const Projection
 
 void SilhouetteRenderer::fillSeen(const std::vector<Triangle>& triangles)
 {
-  this->Pixels.clear();
-  this->Boxes.clear();
-  for (const Vector3& p : this->Points)
-  {
-    this->Pixels.emplace_back(p[0] / p[2], p[1] / p[2]);
-    this->Boxes.push_back(boxOf(&this->Pixels.back(), 1, this->Image.width, this->Image.height));
-  }
+  placePoints(this->Points, this->Image.width, this->Image.height, this->Pixels, this->Boxes);
   for (const Triangle& t : triangles)
   {
     ImageBox box = this->Boxes[t[0]];

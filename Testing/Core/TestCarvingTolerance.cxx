@@ -3,6 +3,8 @@
 
 #include "CarvingTestCaptures.h"
 #include "LatticeRegions.h"
+#include "SyntheticCapture.h"
+#include "SyntheticShapes.h"
 
 #include <gtest/gtest.h>
 
@@ -81,6 +83,30 @@ TEST(CarvingTolerance, WhatNoiseTakesOffAllRoundIsLeftToTheSurface)
   EXPECT_EQ(carving.octree.backgroundVotes, 0);
   options.measure.bridged = 0.0; // a skin is lost, too
   EXPECT_GT(tolerant(views, options).strictUncovered, options.uncoveredShare);
+}
+
+TEST(CarvingTolerance, NoisyContoursAndWrongCamerasTakeNoVotesFromASolid)
+{
+  SyntheticCaptureOptions contours, cameras;
+  contours.width = contours.height = cameras.width = cameras.height = 384;
+  contours.noiseContour = 3.0;
+  cameras.noiseCamera = 3.0;
+  contours.photographs = cameras.photographs = false;
+  for (const auto& noise : { contours, cameras })
+  {
+    Execution execution;
+    std::vector<View> views;
+    for (const SyntheticView& view : synthesizeCapture(syntheticShape(SyntheticShape::Jug), noise, execution).views)
+    {
+      views.push_back({ view.name, view.projection, view.mask });
+    }
+    const auto prepared = std::make_shared<const PreparedViews>(prepareViews(views));
+    const Carve carve = [](const PreparedViews& some, int k, Execution&) { return carveViews(some, unitCube(), 7, k); };
+    CarvingToleranceOptions options;
+    EXPECT_EQ(carveTolerantly(prepared, carve, options, execution).octree.backgroundVotes, 0);
+    options.measure.bridged = 0.0; // as if all that is uncovered were lost
+    EXPECT_GT(carveTolerantly(prepared, carve, options, execution).octree.backgroundVotes, 0);
+  }
 }
 
 TEST(CarvingTolerance, AsManyVotesAsViewsCutARodAreTheLeastThatBringItBack)
