@@ -128,10 +128,10 @@ class Carving(ProgramTest):
 
     def test_report(self):
         done = self.good("reconstruct", self.capture, "-o", self.folder / "x.ply", "--depth", 6)
-        self.assertIn("carving      strict: it leaves 0.00 % of the silhouettes uncovered", done.stdout)
+        self.assertIn("carving      strict: it loses parts with 0.00 % of the silhouettes", done.stdout)
         done = self.good("reconstruct", self.noisy, "-o", self.folder / "x.ply", "--depth", 6)
-        self.assertRegex(done.stdout, r"carving +tolerant, as strict carving leaves \d+\.\d\d % of the silhouettes "
-                                      r"uncovered, this 0\.0\d %: background votes \d, dilation \d px")
+        self.assertRegex(done.stdout, r"carving +tolerant, as strict carving loses parts with \d+\.\d\d % of the "
+                                      r"silhouettes, this 0\.0\d %: background votes \d, dilation \d px")
         done = self.good("reconstruct", self.noisy, "-o", self.folder / "x.ply", "--depth", 6, "--carving", "strict")
         self.assertNotIn("carving ", done.stdout)
 

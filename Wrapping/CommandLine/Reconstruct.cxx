@@ -101,8 +101,8 @@ void Reconstruct::addOctree()
     ->group(group);
   this->App
     ->add_option("--carving", this->Options.carving, "tolerant, background votes, and at worst dilated silhouettes, where "
-                                                     "strict carving cuts parts thinner than the noise, so that the octree "
-                                                     "no longer covers the silhouettes; strict, without looking. "
+                                                     "strict carving cuts parts thinner than the noise, so that they are "
+                                                     "lost in all silhouettes; strict, without looking. "
                                                      "--background-votes, --vote-share, --dilate, --votes faithful and "
                                                      "--surface marching-cubes settle it, too")
     ->type_name("KIND")

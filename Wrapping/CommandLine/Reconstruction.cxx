@@ -399,11 +399,11 @@ std::string Reconstruction::describeCarving() const
   if (votes == 0 && dilation == 0)
   {
     std::snprintf(
-      text, sizeof text, "carving      strict: it leaves %.2f %% of the silhouettes uncovered\n", share);
+      text, sizeof text, "carving      strict: it loses parts with %.2f %% of the silhouettes\n", share);
     return text;
   }
   std::snprintf(text, sizeof text,
-    "carving      tolerant, as strict carving leaves %.2f %% of the silhouettes uncovered, this %.2f %%: background "
+    "carving      tolerant, as strict carving loses parts with %.2f %% of the silhouettes, this %.2f %%: background "
     "votes %d, dilation %d px\n",
     strict, share, votes, dilation);
   return text;
