@@ -27,7 +27,8 @@ enum class CaptureImageChoice : int
  * The views of a capture. Matrices whose sign is free are made positive at the object: at the point nearest
  * the rays through the silhouettes' centroids, or through the images' centres where an image is no
  * silhouette. Throws InvalidInput, naming the files: what readImage throws; a mask of another size than its
- * photograph; no file of the wanted kind. What the images' readers warn of is added to `warnings`.
+ * photograph; no file of the wanted kind. What the images' readers warn of is added to `warnings`, in the
+ * views' order; of several that cannot be read the first is thrown. Images are read side by side.
  */
 std::vector<ImageView> readCapture(const CaptureDescription& capture, CaptureImageChoice choice,
                                    std::vector<std::string>& warnings, Execution& execution);

@@ -127,8 +127,9 @@ public:
 private:
   static TIFF* open(const std::filesystem::path& file)
   {
-    TIFFSetErrorHandler(nullptr); // as VTK's reader does; these print
-    TIFFSetWarningHandler(nullptr);
+    // As VTK's reader does, since these print; once, since they are everybody's and files are read side by side.
+    [[maybe_unused]] static const auto formerErrors = TIFFSetErrorHandler(nullptr);
+    [[maybe_unused]] static const auto formerWarnings = TIFFSetWarningHandler(nullptr);
     return TIFFOpen(file.c_str(), "r");
   }
 

@@ -22,8 +22,8 @@
  * Images are PNG, JPEG, PNM (P5, P6), BMP (8 or 24 bits) or TIFF; 16-bit values are brought to 8 bits. Where a
  * `*_good_silhouette_images.txt` exists only its views are read, unless Views says otherwise.
  *
- * Steps: the camera file is read and each view's files are found; images are decoded one after the other
- * (VTK's readers promise nothing about threads); a P list's matrices are negated where the object would lie
+ * Steps: the camera file is read and each view's files are found; images are decoded side by side, each by a
+ * reader of its own; a P list's matrices are negated where the object would lie
  * behind the camera: the object is the point nearest the rays through the silhouettes' centroids, or through
  * the images' centres where they are photographs, of which vtkSilhouetteExtractor finds the silhouettes and
  * looks again.
