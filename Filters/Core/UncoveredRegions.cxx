@@ -52,11 +52,16 @@ std::vector<std::vector<RowColumn>> regionsOf(const std::vector<RowColumn>& pixe
 class Regions
 {
 public:
-  Regions(const BinaryImage& covered, const LostPartLimits& limits)
+  Regions(const std::vector<RowColumn>& uncovered, const BinaryImage& covered, const LostPartLimits& limits)
     : Covered(covered)
+    , Kinds(covered)
     , Limits(limits)
     , Distances(covered.pixels.data(), covered.width, covered.height, limits.distance + 1.0)
   {
+    for (const auto& [row, column] : uncovered)
+    {
+      this->Kinds.at(column, row) = UncoveredObject;
+    }
   }
 
   /** How many pixels of a region are lost? */
@@ -67,36 +72,86 @@ public:
   }
 
 private:
+  static constexpr std::uint8_t Background = 0, CoveredPixel = 1, UncoveredObject = 2, Counted = 3;
+
+  /** The pixels beside a pixel, and itself. */
+  template <typename Work>
+  void forBeside(const RowColumn& pixel, const Work& work) const
+  {
+    for (int r = std::max(pixel.first - 1, 0); r <= std::min(pixel.first + 1, this->Covered.height - 1); ++r)
+    {
+      for (int c = std::max(pixel.second - 1, 0); c <= std::min(pixel.second + 1, this->Covered.width - 1); ++c)
+      {
+        work(r, c);
+      }
+    }
+  }
+
   bool cuts(const std::vector<RowColumn>& region)
   {
     std::array<std::vector<RowColumn>, 2> beside; // background, covered
-    for (const auto& [row, column] : region)
+    for (const RowColumn& pixel : region)
     {
-      for (int r = std::max(row - 1, 0); r <= std::min(row + 1, this->Covered.height - 1); ++r)
-      {
-        for (int c = std::max(column - 1, 0); c <= std::min(column + 1, this->Covered.width - 1); ++c)
+      this->forBeside(pixel,
+        [&](int r, int c)
         {
-          if (!std::binary_search(region.begin(), region.end(), RowColumn(r, c)))
+          if (this->Kinds.at(c, r) != UncoveredObject)
           {
-            beside[this->Covered.at(c, r)].emplace_back(r, c);
+            beside[this->Kinds.at(c, r)].emplace_back(r, c);
           }
-        }
-      }
+        });
     }
-    return std::all_of(beside.begin(), beside.end(), [this](std::vector<RowColumn>& pixels) { return this->contacts(pixels) >= 2; });
+    const auto isAny = [](const std::vector<RowColumn>&) { return true; };
+    const auto isNoHole = [this](const std::vector<RowColumn>& stretch) { return !this->isHole(stretch.front()); };
+    return this->contacts(beside[CoveredPixel], isAny) >= 2 && this->contacts(beside[Background], isNoHole) >= 2;
   }
 
-  /** In how many stretches do pixels, in any order, each any number of times, touch a region? */
-  std::ptrdiff_t contacts(std::vector<RowColumn>& pixels) const
+  /** In how many stretches that pass do pixels, in any order, each any number of times, touch a region? */
+  template <typename Passes>
+  std::ptrdiff_t contacts(std::vector<RowColumn>& pixels, const Passes& passes) const
   {
     std::sort(pixels.begin(), pixels.end());
     pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
     const auto stretches = regionsOf(pixels);
     return std::count_if(stretches.begin(), stretches.end(),
-      [this](const std::vector<RowColumn>& stretch) { return double(stretch.size()) >= this->Limits.contact; });
+      [&](const std::vector<RowColumn>& stretch) { return double(stretch.size()) >= this->Limits.contact && passes(stretch); });
+  }
+
+  /** Does a pixel belong to background that is smaller than a square of the distance, and all inside the image? Such holes noise makes beside the contour. */
+  bool isHole(const RowColumn& pixel)
+  {
+    const double area = this->Limits.distance * this->Limits.distance;
+    std::vector<RowColumn> found = { pixel };
+    this->Kinds.at(pixel.second, pixel.first) = Counted;
+    bool isHole = true;
+    for (std::size_t n = 0; n < found.size() && isHole; ++n)
+    {
+      const RowColumn from = found[n]; // `found` moves
+      this->forBeside(from,
+        [&](int r, int c)
+        {
+          if (this->Kinds.at(c, r) == Background)
+          {
+            this->Kinds.at(c, r) = Counted;
+            found.emplace_back(r, c);
+          }
+        });
+      isHole = double(found.size()) < area && !this->isAtBorder(from);
+    }
+    for (const auto& [row, column] : found)
+    {
+      this->Kinds.at(column, row) = Background;
+    }
+    return isHole;
+  }
+
+  bool isAtBorder(const RowColumn& pixel) const
+  {
+    return pixel.first == 0 || pixel.second == 0 || pixel.first == this->Covered.height - 1 || pixel.second == this->Covered.width - 1;
   }
 
   const BinaryImage& Covered;
+  BinaryImage Kinds;
   const LostPartLimits& Limits;
   DistanceProbe Distances;
 };
@@ -109,7 +164,7 @@ std::uint64_t pixelsOfLostParts(const std::vector<RowColumn>& uncovered, const B
   {
     return 0;
   }
-  Regions regions(covered, limits);
+  Regions regions(uncovered, covered, limits);
   std::uint64_t pixels = 0;
   for (const auto& region : regionsOf(uncovered))
   {

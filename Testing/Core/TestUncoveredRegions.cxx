@@ -99,6 +99,23 @@ TEST(UncoveredRegions, AGapIsLostHoweverShortItIs)
   EXPECT_EQ(lostOf(askew, wide), 6u);
 }
 
+TEST(UncoveredRegions, AHoleThatNoiseMakesBesideTheContourIsNoSide)
+{
+  const std::vector<std::string> skin = {
+    "...............",
+    "..ooooooooooo..",
+    "..ooooooooooo..",
+    "..###oo...###..",
+    "..####....###..",
+    "..#####..####..",
+    "..###########..",
+    "...............",
+  };
+  EXPECT_EQ(lostOf(skin, limitsOf(1, 2, 4)), 0u) << "ten pixels are less than sixteen";
+  EXPECT_EQ(lostOf(skin, limitsOf(1, 2, 3)), 24u) << "and more than nine: a handle, whose upper side is lost";
+  EXPECT_EQ(lostOf(turned(skin), limitsOf(1, 2, 4)), 0u);
+}
+
 TEST(UncoveredRegions, CoverBeyondTheContourLeavesTheSidesOfAGap)
 {
   EXPECT_EQ(lostOf(
