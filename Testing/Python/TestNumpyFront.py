@@ -209,7 +209,7 @@ class TestErrors(unittest.TestCase):
         self.check(ValueError, "masks are 0", masks=[], projections=np.empty((0, 3, 4)))
         self.check(ValueError, "bounds are", bounds=(0, np.inf, 0, 1, 0, 1))
         for depth in (5.5, "5", None):
-            self.check(TypeError, "integer", depth=depth)
+            self.check(TypeError, f"depth is {depth!r}, it is a whole number", depth=depth)
         for depth in (-1, 0, 17, 40):
             self.check(ValueError, f"depth is {depth}, it is 1 to 16", depth=depth)
         for share in (0, -0.5, 1.5, np.nan):

@@ -227,7 +227,10 @@ def _local_hulls(mode, drop_islands, **switches):
 
 
 def _depth(depth):
-    number = operator.index(depth)
+    try:
+        number = operator.index(depth)
+    except TypeError:
+        raise TypeError(f"depth is {depth!r}, it is a whole number") from None
     if not DEPTHS[0] <= number <= DEPTHS[1]:
         raise ValueError(f"depth is {number}, it is {DEPTHS[0]} to {DEPTHS[1]}")
     return number
