@@ -2,6 +2,7 @@
 #include "FieldCorrection.h"
 
 #include "ContourDeficit.h"
+#include "ContourLimit.h"
 #include "Error.h"
 #include "FieldRefinement.h"
 #include "FieldSmoothing.h"
@@ -36,7 +37,6 @@ constexpr int MostHalvings = 3;          ///< between the lattice of the field a
 constexpr double FinestSmoothing = 1.9;  ///< octants of the field's lattice, where contours alone are noisy
 constexpr double FinestAligned = 3.0;    ///< the same where views may have to be aligned
 constexpr int RefinedMargin = 3;         ///< octants that the field is given around the surface
-constexpr double ThoughtOutAt = 128.0; ///< cells a side of the lattice that the largest lengths are stated for
 
 void check(const FieldCorrectionOptions& options)
 {
@@ -87,7 +87,7 @@ struct Lengths
 
   explicit Lengths(const Lattice& lattice)
     : proportion(lattice.cells() / ThoughtOutAt)
-    , scale(std::max(1.0, this->proportion))
+    , scale(lengthScale(lattice))
   {
   }
 
@@ -101,7 +101,7 @@ struct Lengths
     return lengths;
   }
 
-  double limit() const { return 3.0 * this->scale; } ///< contours that are further apart are not each other's
+  double limit() const { return ContourLimit * this->scale; } ///< contours that are further apart are not each other's
   double reach() const { return 4.0 * this->scale; } ///< distances are cut off there
 };
 

@@ -14,6 +14,12 @@
 namespace silhouette
 {
 
+/** So many items forItems() has under way at most: two whose numbers are alike modulo this are never worked on side by side, so that memory kept from one item to another needs no more places. */
+inline std::size_t itemsAtATime(const Execution& execution)
+{
+  return 2 * std::size_t(std::max(execution.threads(), 1));
+}
+
 /**
  * Call `work(i)` once for each i below `count`, some of them side by side, and tell how far it is after each few, so that whoever wants to stop need not wait for all. Where some throw, what the
  * first of them threw is thrown on, whichever thread came to it first; later ones may then not have been worked on.
@@ -21,7 +27,7 @@ namespace silhouette
 template <typename Work>
 void forItems(std::size_t count, Execution& execution, const Work& work)
 {
-  const std::size_t batch = 2 * std::size_t(std::max(execution.threads(), 1));
+  const std::size_t batch = itemsAtATime(execution);
   for (std::size_t begin = 0; begin < count; begin += batch)
   {
     const std::size_t end = std::min(begin + batch, count);

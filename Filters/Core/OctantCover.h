@@ -7,6 +7,7 @@
 #include "PreparedViews.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -3,10 +3,7 @@
 
 #include "ItemWork.h"
 #include "MeshCheck.h"
-#include "SharedWork.h"
 #include "SilhouetteRendering.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 
@@ -32,10 +29,23 @@ void computeShares(ViewAgreement& a)
   }
 }
 
+/** What a view sees of the mesh; of a point that does not project to finite numbers the message names the view. */
+const BinaryImage& rendering(const Mesh& mesh, const View& view, SilhouetteRenderer& renderer)
+{
+  try
+  {
+    return renderer.render(mesh, view.projection, view.silhouette.width, view.silhouette.height);
+  }
+  catch (const InvalidInput& error)
+  {
+    throw InvalidInput("view " + view.name + ": " + error.what());
+  }
+}
+
 ViewAgreement compareView(const Mesh& mesh, const View& view, SilhouetteRenderer& renderer)
 {
   const BinaryImage& silhouette = view.silhouette;
-  const BinaryImage& rendered = renderer.render(mesh, view.projection, silhouette.width, silhouette.height);
+  const BinaryImage& rendered = rendering(mesh, view, renderer);
   ViewAgreement result;
   result.name = view.name;
   for (std::size_t i = 0; i < silhouette.pixels.size(); ++i)
@@ -62,16 +72,6 @@ void checkView(const View& view)
   }
 }
 
-/** Rendering throws where a point does not project to finite numbers, but does not name the view. */
-void checkProjection(const Mesh& mesh, const View& view)
-{
-  if (!std::all_of(
-        mesh.points.begin(), mesh.points.end(), [&view](const Vector3& p) { return (view.projection * p.homogeneous()).allFinite(); }))
-  {
-    throw InvalidInput("view " + view.name + ": the mesh does not project to finite numbers");
-  }
-}
-
 } // namespace
 
 std::vector<ViewAgreement> compareSilhouettes(
@@ -82,21 +82,9 @@ std::vector<ViewAgreement> compareSilhouettes(
   {
     checkView(view);
   }
-  Phase checking(execution, 0.0, 0.1);
-  forItems(views.size(), checking, [&](std::size_t v) { checkProjection(mesh, views[v]); });
   std::vector<ViewAgreement> result(views.size());
-  // A few views at a time, so that a caller who wants to stop need not wait for all.
-  const std::size_t step = 4 * std::size_t(std::max(execution.threads(), 1));
-  for (std::size_t begin = 0; begin < views.size(); begin += step)
-  {
-    execution.checkpoint(0.1 + 0.9 * double(begin) / double(views.size()));
-    shareWork(std::min(step, views.size() - begin), execution,
-      [&]
-      {
-        return [&, renderer = SilhouetteRenderer()](std::size_t n) mutable
-        { result[begin + n] = compareView(mesh, views[begin + n], renderer); };
-      });
-  }
+  std::vector<SilhouetteRenderer> renderers(itemsAtATime(execution));
+  forItems(views.size(), execution, [&](std::size_t v) { result[v] = compareView(mesh, views[v], renderers[v % renderers.size()]); });
   execution.checkpoint(1.0);
   return result;
 }

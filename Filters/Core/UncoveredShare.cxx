@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "UncoveredShare.h"
 
+#include "ItemWork.h"
 #include "OctantCover.h"
 #include "UncoveredRegions.h"
 #include "Vectorised.h"
@@ -15,8 +16,7 @@ namespace silhouette
 namespace
 {
 
-constexpr double StatedFor = 128.0;  ///< cells a side of the lattice whose octants the following and the bridged distance are
-constexpr double LeastContact = 0.5; ///< octants: shorter ends and sides of a region are noise, such as a hole beside the contour
+constexpr double LeastContact = 0.5; ///< octants times lengthScale(): shorter ends and sides of a region are noise, such as a hole beside the contour
 
 /** Is some of the pixels object and held by nothing? */
 SILHOUETTE_VECTORISED bool anyUncovered(const std::int32_t* held, const std::uint8_t* object, int count)
@@ -86,7 +86,7 @@ public:
     {
       return 0.0;
     }
-    const double proportion = octant * std::max(1.0, this->TheOctree->lattice.cells() / StatedFor);
+    const double proportion = octant * lengthScale(this->TheOctree->lattice);
     LostPartLimits limits;
     limits.area = std::max(limits.area, this->Options->speckArea * octant * octant);
     limits.contact = std::max(limits.contact, LeastContact * proportion);
@@ -199,21 +199,9 @@ std::vector<double> uncoveredShares(const Octree& octree, const PreparedViews& v
     return shares;
   }
   const LatticeViews latticeViews(views, octree.lattice);
-  const int batch = std::max(1, execution.threads());
-  std::vector<ShareMeasure> measures(std::size_t(batch), ShareMeasure(octree, options)); // one for each worker of a batch
-  for (int done = 0; done < views.size(); done += batch)
-  {
-    execution.forRanges(std::size_t(std::min(batch, views.size() - done)), 1,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t n = first; n < last; ++n)
-        {
-          const int view = done + int(n);
-          shares[std::size_t(view)] = measures[n].share(views[view], latticeViews.projection(view));
-        }
-      });
-    execution.checkpoint(double(std::min(done + batch, views.size())) / views.size());
-  }
+  std::vector<ShareMeasure> measures(itemsAtATime(execution), ShareMeasure(octree, options));
+  forItems(shares.size(), execution,
+    [&](std::size_t n) { shares[n] = measures[n % measures.size()].share(views[int(n)], latticeViews.projection(int(n))); });
   return shares;
 }
 

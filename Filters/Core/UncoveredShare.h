@@ -6,6 +6,7 @@
  */
 #pragma once
 
+#include "ContourLimit.h"
 #include "Execution.h"
 #include "Octree.h"
 #include "PreparedViews.h"
@@ -28,10 +29,10 @@ struct UncoveredShareOptions
    */
   double speckArea = 1.0;
   /**
-   * Octants of a lattice of 128 cells, on finer ones in proportion, 0 or more: how far uncovered pixels may be from covered ones and yet be the skin that noise takes off all round. The
-   * default is as far as the local hulls take contours for each other's (FieldCorrection.h). Larger finds less.
+   * Octants times lengthScale(), 0 or more: how far uncovered pixels may be from covered ones and yet be the skin that noise takes off all round. The
+   * default is as far as the local hulls take contours for each other's. Larger finds less.
    */
-  double bridged = 3.0;
+  double bridged = ContourLimit;
 };
 
 /**

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ItemWork.h"
 
+#include "EvaluationTestMeshes.h"
+
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -9,39 +11,20 @@
 #include <thread>
 
 using namespace silhouette;
+using namespace silhouette::test;
 
 namespace
 {
 
-/** As many threads as it is told, whatever the machine has; stops when it is told. */
-class Threads : public Execution
+/** Stops after having told its progress twice. */
+class StoppedExecution : public Execution
 {
 public:
-  explicit Threads(int count)
-    : Count(count)
-  {
-  }
-  int threads() const override { return this->Count; }
-  void forRanges(std::size_t count, std::size_t, const Range& work) override
-  {
-    std::vector<std::thread> workers;
-    for (std::size_t first = 0; first < count; ++first)
-    {
-      workers.emplace_back([&work, first] { work(first, first + 1); });
-    }
-    for (std::thread& worker : workers)
-    {
-      worker.join();
-    }
-  }
-  void progress(double share) override { this->Shares.push_back(share); }
-  bool cancelled() const override { return this->Shares.size() >= this->StopAfter; }
-
-  std::vector<double> Shares;
-  std::size_t StopAfter = 1000;
+  void progress(double) override { ++this->Told; }
+  bool cancelled() const override { return this->Told >= 2; }
 
 private:
-  int Count;
+  int Told = 0;
 };
 
 } // namespace
@@ -52,23 +35,26 @@ TEST(ItemWork, EachItemOnce)
   {
     for (const std::size_t count : { 0u, 1u, 7u, 100u })
     {
-      Threads execution(threads);
+      ThreadedExecution execution(threads);
       std::vector<std::atomic<int>> done(count);
       forItems(count, execution, [&](std::size_t i) { ++done[i]; });
       for (const auto& times : done)
       {
         EXPECT_EQ(times, 1);
       }
-      EXPECT_TRUE(count == 0 || execution.Shares.back() == 1.0);
     }
   }
+  ProgressExecution progress;
+  forItems(7, progress, [](std::size_t) {});
+  EXPECT_TRUE(progress.Monotone);
+  EXPECT_EQ(progress.Last, 1.0);
 }
 
 TEST(ItemWork, ThrowsTheFirstFailureAndNoneThatComesAfterIt)
 {
   for (const int threads : { 1, 2, 8 })
   {
-    Threads execution(threads);
+    ThreadedExecution execution(threads);
     std::atomic<int> worked{ 0 };
     try
     {
@@ -91,11 +77,29 @@ TEST(ItemWork, ThrowsTheFirstFailureAndNoneThatComesAfterIt)
   }
 }
 
+TEST(ItemWork, NoTwoSideBySideShareAPlace)
+{
+  for (const int threads : { 1, 2, 8 })
+  {
+    ThreadedExecution execution(threads);
+    std::vector<std::atomic<int>> busy(itemsAtATime(execution));
+    std::atomic<int> shared{ 0 };
+    forItems(100, execution,
+      [&](std::size_t i)
+      {
+        auto& place = busy[i % busy.size()];
+        shared += place++ != 0;
+        std::this_thread::yield();
+        --place;
+      });
+    EXPECT_EQ(shared, 0);
+  }
+}
+
 TEST(ItemWork, StopsBetweenItems)
 {
-  Threads execution(2);
-  execution.StopAfter = 2;
-  std::atomic<int> worked{ 0 };
+  StoppedExecution execution;
+  int worked = 0;
   EXPECT_THROW(forItems(100, execution, [&](std::size_t) { ++worked; }), Cancelled);
   EXPECT_LT(worked, 50);
 }

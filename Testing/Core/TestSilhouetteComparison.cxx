@@ -101,9 +101,23 @@ TEST(SilhouetteComparison, RejectsAndCancels)
   }
   views[1] = view("bad", Mesh(), 5, 5);
   views[1].projection(0, 0) = std::nan("");
-  EXPECT_THROW(compareSilhouettes(boxMesh(0, 1), views, serial), InvalidInput);
+  views.push_back(views[1]);
+  views[2].name = "worse";
+  ThreadedExecution threads(4);
+  for (Execution* execution : { &serial, static_cast<Execution*>(&threads) })
+  {
+    try
+    {
+      compareSilhouettes(boxMesh(0, 1), views, *execution);
+      FAIL();
+    }
+    catch (const InvalidInput& error)
+    {
+      EXPECT_STREQ(error.what(), "view bad: point 0 does not project to finite numbers");
+    }
+  }
   ProgressExecution progress;
-  views.pop_back();
+  views.resize(1);
   compareSilhouettes(boxMesh(0, 1), views, progress);
   EXPECT_TRUE(progress.Monotone);
   EXPECT_EQ(progress.Last, 1.0);

@@ -88,7 +88,7 @@ TEST(UncoveredRegions, AGapIsLostHoweverShortItIs)
   EXPECT_EQ(lostOf(gap, wide), 6u);
   EXPECT_EQ(lostOf(turned(gap), wide), 6u);
   EXPECT_EQ(lostOf(gap, limitsOf(7, 2, 100)), 0u) << "a speck";
-  EXPECT_EQ(lostOf(gap, limitsOf(1, 5, 100)), 0u) << "no side runs along it for four pixels";
+  EXPECT_EQ(lostOf(gap, limitsOf(1, 5, 100)), 0u) << "its sides are four pixels long";
   const std::vector<std::string> askew = {
     "..............",
     "..###oo#####..",

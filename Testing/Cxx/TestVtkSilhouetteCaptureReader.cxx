@@ -134,6 +134,10 @@ TEST_F(VtkSilhouetteCaptureReader, RefusesWhatItCannotRead)
   const fs::path mask = this->Folder / "masks/disc3.png";
   std::ofstream(mask) << "not an image";
   expectError(this->Reader, {"cannot read image", "disc3.png", "not a PNG, JPEG, PNM, BMP or TIFF"});
+  const fs::path earlier = this->Folder / "masks/disc2.png"; // they are read side by side
+  std::ofstream(earlier) << "nor this";
+  expectError(this->Reader, {"cannot read image", "disc2.png", "not a PNG, JPEG, PNM, BMP or TIFF"});
+  writeImage<vtkPNGWriter>(this->image(2), earlier);
   writeImage<vtkPNGWriter>(this->image(3), mask);
 
   writeImage<vtkPNGWriter>(plainImage(10, 12, 9, 3), this->Folder / "images/disc5.png");
