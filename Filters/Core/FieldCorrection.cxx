@@ -6,10 +6,10 @@
 #include "Error.h"
 #include "FieldRefinement.h"
 #include "FieldSmoothing.h"
+#include "FieldRaising.h"
 #include "FirstTouch.h"
-#include "NearViews.h"
+#include "LeastDistances.h"
 #include "SurfaceCells.h"
-#include "Vectorised.h"
 #include "ViewAgreement.h"
 #include "ViewAlignment.h"
 
@@ -57,25 +57,7 @@ void check(const FieldCorrectionOptions& options)
   require(options.gentleness >= 0.0, "gentleness", options.gentleness);
   require(options.contourReach > 0.0, "contour reach", options.contourReach);
   require(options.hullConvexity >= 0.0, "hull convexity", options.hullConvexity);
-}
-
-bool allAtMost(const float* values, float most)
-{
-  return std::all_of(values, values + BlockPoints, [most](float value) { return value <= most; });
-}
-
-/** Sort a block of distances into the `rank` least so far, a block each, the least first; `distances` is used up. */
-SILHOUETTE_VECTORISED void keepLeast(float* distances, float* least, int rank)
-{
-  for (int k = 0; k < rank; ++k, least += BlockPoints)
-  {
-    for (std::size_t n = 0; n < BlockPoints; ++n)
-    {
-      const float greater = least[n] < distances[n] ? distances[n] : least[n];
-      least[n] = distances[n] < least[n] ? distances[n] : least[n];
-      distances[n] = greater;
-    }
-  }
+  require(options.raiseWidth >= 0.0 && options.raiseWidth <= WidestRaising, "raise width", options.raiseWidth);
 }
 
 /** Lengths that go with the lattice, in its octants. */
@@ -224,40 +206,12 @@ private:
       this->Ranked.clear();
       resizeSideBySide(this->Ranked, this->Least.size(), execution);
     }
-    const float far = float(this->Views.reach());
-    const auto makeWork = [&]
+    const auto take = [&](std::size_t block, const float* least)
     {
-      return [&, kept = std::vector<float>(std::size_t(rank) * BlockPoints)](std::size_t block, const std::vector<NearView>& near) mutable
-      {
-        const LatticePoint lowest = fromMorton(this->Least.code(block));
-        std::fill(kept.begin(), kept.end(), far);
-        const float* const greatest = &kept[(rank - 1) * BlockPoints];
-        float distance[BlockPoints];
-        for (std::size_t i = 0; i < near.size() && !allAtMost(greatest, -far); ++i)
-        {
-          const auto& [view, region] = near[i];
-          if (i + 1 < near.size())
-          {
-            this->Views.fetch(this->Views.observed(near[i + 1].view), near[i + 1].region);
-          }
-          this->Views.insideBlock(view, lowest, region, { { this->Views.observed(view), distance } });
-          keepLeast(distance, kept.data(), rank);
-        }
-        float* const least = &this->Least.values()[block];
-        float* const ranked = &this->Ranked[block];
-        std::copy(kept.begin(), kept.begin() + BlockPoints, least);
-        std::copy(greatest, greatest + BlockPoints, ranked);
-        const bool atBorder = this->touchesBorder(lowest);
-        for (std::size_t n = 0; n < BlockPoints && atBorder; ++n)
-        {
-          if (this->Views.lattice().onBorder(lowest + fromMorton(n)))
-          {
-            least[n] = ranked[n] = -far;
-          }
-        }
-      };
+      std::copy_n(least, BlockPoints, &this->Least.values()[block]);
+      std::copy_n(least + std::size_t(rank - 1) * BlockPoints, BlockPoints, &this->Ranked[block]);
     };
-    forBlocks(this->Least, this->Views, nullptr, [](std::size_t) { return true; }, makeWork, execution);
+    forLeastDistances(this->Least, this->Views, rank, [](std::size_t) { return true; }, take, execution);
   }
 
   bool touchesBorder(const LatticePoint& block) const
@@ -403,9 +357,16 @@ int halvingsFor(double deficit, double finest, const Lengths& lengths, const Fie
   return halvings;
 }
 
+/** Leaf cells that the surface will have to cross, and the background votes that they were carved with. */
+struct Survivors
+{
+  const std::vector<std::uint64_t>& cells;
+  int backgroundVotes;
+};
+
 /** `result` and `residuals`, which may be null as Correction has them, in octants of the lattice, which the field's is where the residuals count. */
 void correctOnCoarserLattice(const Mesh& surface, const Lattice& lattice, const PreparedViews& views, const FieldCorrectionOptions& options,
-  const std::vector<ContourResidual>* residuals, FieldCorrection& result, Execution& execution)
+  const std::vector<ContourResidual>* residuals, const Survivors& survivors, FieldCorrection& result, Execution& execution)
 {
   const double finest = residuals ? FinestAligned : FinestSmoothing;
   const int halvings = std::min(halvingsFor(result.deficit, finest, Lengths(lattice), options), lattice.depth - 1);
@@ -421,12 +382,17 @@ void correctOnCoarserLattice(const Mesh& surface, const Lattice& lattice, const 
   result.hull = coarse.hull;
   result.field = halvings == 0 ? std::move(coarse.field)
                                : refinedField(*coarse.field, halvings, cells, RefinedMargin, execution);
+  if (options.raiseWidth > 0.0)
+  {
+    fieldViews.look(lattice, Lengths(lattice).reach()); // as their cameras say, from where the survivors were carved
+    raiseToSurvivors(*result.field, survivors.cells, fieldViews, survivors.backgroundVotes, options.raiseWidth, execution);
+  }
 }
 
 } // namespace
 
 FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const PreparedViews& views,
-  const FieldCorrectionOptions& options, Execution& execution)
+  const FieldCorrectionOptions& options, const std::vector<std::uint64_t>& survivors, int backgroundVotes, Execution& execution)
 {
   check(options);
   FieldCorrection result;
@@ -447,7 +413,7 @@ FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const 
   {
     Phase correcting(execution, 0.3, 1.0);
     const auto* residuals = measured.mayBeCameras(options.shiftNoise) ? &measured.residuals : nullptr;
-    correctOnCoarserLattice(surface, lattice, views, options, residuals, result, correcting);
+    correctOnCoarserLattice(surface, lattice, views, options, residuals, { survivors, backgroundVotes }, result, correcting);
   }
   execution.progress(1.0);
   return result;

@@ -17,7 +17,9 @@
 #include "HullBase.h"
 #include "PreparedViews.h"
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace silhouette
 {
@@ -70,6 +72,8 @@ struct FieldCorrectionOptions
    * (applyHullBase()); 1 or more gives none.
    */
   double hullConvexity = 0.97;
+  /** Octants, 0 or more: how far around survivors that the field leaves outside it is raised towards them (FieldRaising.h); 0 raises nothing, larger blends in more widely. */
+  double raiseWidth = 1.5;
 };
 
 /** A field, and what was found on the way. */
@@ -84,11 +88,12 @@ struct FieldCorrection
 };
 
 /**
- * Correct `surface`, marching cubes' of the views. Throws InvalidInput for an option out of range, Cancelled.
+ * Correct `surface`, marching cubes' of the views. `survivors`: leaf cells (Morton codes, ascending) of an octree of these views, or of such with more background, with so many
+ * background votes, below the number of views; the surface will have to cross them. Throws InvalidInput for an option out of range, Cancelled.
  * Cost: the deficit renders every third view, or every sixth where there is none to speak of; a correction renders every view two times or more and looks up
  * each one's distance at the points of a band.
  */
 FieldCorrection correctField(const Mesh& surface, const Lattice& lattice, const PreparedViews& views,
-  const FieldCorrectionOptions& options, Execution& execution);
+  const FieldCorrectionOptions& options, const std::vector<std::uint64_t>& survivors, int backgroundVotes, Execution& execution);
 
 } // namespace silhouette

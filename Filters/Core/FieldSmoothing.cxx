@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -43,18 +44,27 @@ double secondMoment(const HalfKernel& kernel)
   return moment;
 }
 
+/** A Gaussian, 1 in its middle, up to three standard deviations. */
+HalfKernel gaussianOf(double sigma)
+{
+  constexpr double Reach = 3.0;
+  HalfKernel gaussian(std::size_t(std::max(1.0, std::ceil(Reach * sigma))) + 1);
+  gaussian[0] = 1.0; // whatever sigma
+  for (std::size_t i = 1; i < gaussian.size(); ++i)
+  {
+    gaussian[i] = std::exp(-0.5 * double(i * i) / (sigma * sigma));
+  }
+  return gaussian;
+}
+
 /**
  * A Gaussian g would draw a curved surface towards its inner side, by half of sigma squared times the curvature; in a g - b g * g
  * the two draw alike. a and b: the weights add up to 1, their second moment is 0.
  */
 std::vector<float> keepingKernel(double sigma)
 {
-  constexpr double Narrow = 3.0, Wide = 4.5; // standard deviations up to which the Gaussian and the whole are taken
-  HalfKernel gaussian(std::size_t(std::max(1.0, std::ceil(Narrow * sigma))) + 1);
-  for (std::size_t i = 0; i < gaussian.size(); ++i)
-  {
-    gaussian[i] = std::exp(-0.5 * double(i * i) / (sigma * sigma));
-  }
+  constexpr double Wide = 4.5; // standard deviations up to which the whole is taken
+  const HalfKernel gaussian = gaussianOf(sigma);
   HalfKernel twice(std::size_t(std::max(2.0, std::ceil(Wide * sigma))) + 1, 0.0);
   const int radius = int(gaussian.size()) - 1;
   for (std::size_t i = 0; i < twice.size(); ++i)
@@ -250,10 +260,32 @@ private:
 
 } // namespace
 
+std::vector<float> gaussianKernel(double sigma)
+{
+  const HalfKernel gaussian = gaussianOf(sigma);
+  const double sum = sumOf(gaussian);
+  std::vector<float> kernel(gaussian.size());
+  std::transform(gaussian.begin(), gaussian.end(), kernel.begin(), [sum](double weight) { return float(weight / sum); });
+  return kernel;
+}
+
 void FieldSmoother::smooth(BrickField& field, double sigma, float most, Execution& execution)
 {
   constexpr double least = 1e-3; // octants: what is narrower leaves every value as it is
-  if (!(sigma > least) || field.size() == 0)
+  if (sigma > least)
+  {
+    this->run(field, keepingKernel(sigma), most, execution);
+  }
+}
+
+void FieldSmoother::blur(BrickField& field, double sigma, Execution& execution)
+{
+  this->run(field, gaussianKernel(sigma), std::numeric_limits<float>::infinity(), execution);
+}
+
+void FieldSmoother::run(BrickField& field, const std::vector<float>& kernel, float most, Execution& execution)
+{
+  if (field.size() == 0)
   {
     return;
   }
@@ -266,7 +298,7 @@ void FieldSmoother::smooth(BrickField& field, double sigma, float most, Executio
     this->To.reset(new float[field.size()]);
     this->Size = field.size();
   }
-  Smoothing(field, keepingKernel(sigma), this->From.get(), this->To.get()).run(most, execution);
+  Smoothing(field, kernel, this->From.get(), this->To.get()).run(most, execution);
 }
 
 } // namespace silhouette

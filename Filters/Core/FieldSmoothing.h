@@ -9,9 +9,13 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace silhouette
 {
+
+/** Weights of a Gaussian at 0, 1, 2, ... octants, up to three standard deviations `sigma`, above 0; over both sides they add up to 1. */
+std::vector<float> gaussianKernel(double sigma);
 
 /** Smooths fields, one after another, in memory that it keeps. */
 class FieldSmoother
@@ -24,7 +28,12 @@ public:
    */
   void smooth(BrickField& field, double sigma, float most, Execution& execution);
 
+  /** By gaussianKernel(), which draws surfaces inwards: for fields that are none's. Where bricks end the last value goes on. Cost: as smooth(), a third. */
+  void blur(BrickField& field, double sigma, Execution& execution);
+
 private:
+  void run(BrickField& field, const std::vector<float>& kernel, float most, Execution& execution);
+
   std::unique_ptr<float[]> From, To; ///< values of all bricks, a brick's row after row; first touched side by side
   std::size_t Size = 0;              ///< of each
 };

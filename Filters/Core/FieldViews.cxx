@@ -202,9 +202,17 @@ FieldViews::FieldViews(const PreparedViews& views, const Lattice& lattice, doubl
   , DepthScale(views.size(), 1.0)
   , Observed(views.size())
 {
+  this->look(lattice, reach);
+}
+
+void FieldViews::look(const Lattice& lattice, double reach)
+{
+  this->TheLattice = lattice;
+  this->Reach = reach;
   const int middle = lattice.cells() / 2;
-  for (int view = 0; view < views.size(); ++view)
+  for (int view = 0; view < this->size(); ++view)
   {
+    this->Shifts[view] = Vector2::Zero();
     this->project(view);
     const HomogeneousPixel h = this->OnLattice[view]({ middle, middle, middle });
     if (h.W > this->OnLattice[view].minimumDepth)

@@ -26,6 +26,12 @@ public:
   /** Make the observed silhouettes' distances of these views, where they are not made yet. Cost: distanceMap() of each. */
   void observe(const std::vector<int>& views, Execution& execution);
 
+  /**
+   * From now on see the points of this lattice, with no view shifted. What has been observed stays, so `reach`, in the lattice's octants, should be no longer than
+   * before.
+   */
+  void look(const Lattice& lattice, double reach);
+
   int size() const { return this->Views->size(); }
   const Lattice& lattice() const { return this->TheLattice; }
   double reach() const { return this->Reach; }

@@ -271,7 +271,7 @@ CorrectedCapture correctCapture(const Mesh& imperfect, const Octree& octree, con
   }
   Phase correcting(execution, 0.4, 1.0);
   capture.correction = correctField(capture.surface ? *capture.surface : imperfect, octree.lattice,
-    capture.repaired ? *capture.repaired : views, options.correction, correcting);
+    capture.repaired ? *capture.repaired : views, options.correction, shell.cells, octree.backgroundVotes, correcting);
   if (capture.correction.field)
   {
     pinWhereBricksEnd(capture.recarved ? *capture.recarved : octree, *capture.correction.field, execution);

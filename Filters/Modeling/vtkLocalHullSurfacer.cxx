@@ -228,6 +228,7 @@ public:
     pair(self.ShiftNoise, options.correction.shiftNoise);
     pair(self.Alignments, options.correction.alignments);
     pair(self.ContourReach, options.correction.contourReach);
+    pair(self.RaiseWidth, options.correction.raiseWidth);
     pair(self.ThinSmallestRadius, options.thin.smallestRadius);
     pair(self.ThinLargestRadius, options.thin.largestRadius);
     pair(self.ThinReach, options.thin.reach);
@@ -473,6 +474,7 @@ void vtkLocalHullSurfacer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ShiftNoise: " << this->ShiftNoise << "\n";
   os << indent << "Alignments: " << this->Alignments << "\n";
   os << indent << "ContourReach: " << this->ContourReach << "\n";
+  os << indent << "RaiseWidth: " << this->RaiseWidth << "\n";
   os << indent << "ThinSmallestRadius: " << this->ThinSmallestRadius << "\n";
   os << indent << "ThinLargestRadius: " << this->ThinLargestRadius << "\n";
   os << indent << "ThinReach: " << this->ThinReach << "\n";

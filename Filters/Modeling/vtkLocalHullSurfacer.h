@@ -371,6 +371,15 @@ public:
 
   ///@{
   /**
+   * CorrectField: where survivors stick out of the corrected surface it is raised to a tenth of an octant beneath the silhouettes' own, within about this distance of
+   * them, instead of being covered by a corner each; leaf octants, 0 for none up to 64, default 1.5. Larger blends in more widely.
+   */
+  vtkSetMacro(RaiseWidth, double);
+  vtkGetMacro(RaiseWidth, double);
+  ///@}
+
+  ///@{
+  /**
    * ThinHulls: the least radius of a ball; leaf octants, above 0 to ThinLargestRadius, default 0.12. Larger makes
    * thinner parts fatter.
    */
@@ -533,6 +542,7 @@ protected:
   double ShiftNoise;
   int Alignments;
   double ContourReach;
+  double RaiseWidth;
   double ThinSmallestRadius;
   double ThinLargestRadius;
   double ThinReach;

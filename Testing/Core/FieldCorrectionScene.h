@@ -5,6 +5,7 @@
 #pragma once
 
 #include "CarvingTestCaptures.h"
+#include "CornerShell.h"
 #include "FieldCorrection.h"
 #include "MeshDistance.h"
 #include "SyntheticCapture.h"
@@ -126,17 +127,19 @@ struct Corrected
     Execution execution;
     const Octree octree = carveViews(this->views, unitCube(1.05), depth);
     this->lattice = octree.lattice;
+    this->survivors = leafCells(octree, OctantState::Intersection);
     this->exact = votingMarchingCubes(octree, this->views, {}, execution).mesh;
     this->correction = this->correct(options, execution);
   }
 
   FieldCorrection correct(const FieldCorrectionOptions& options, Execution& execution) const
   {
-    return correctField(this->exact, this->lattice, this->views, options, execution);
+    return correctField(this->exact, this->lattice, this->views, options, {}, 0, execution);
   }
 
   PreparedViews views;
   Lattice lattice;
+  std::vector<std::uint64_t> survivors;
   Mesh exact;
   FieldCorrection correction;
 };

@@ -134,7 +134,7 @@ TEST(FieldCorrection, EachPartDoesWhatItSaysAlone)
     options.smallestShift = shift * both.shift;
     EXPECT_EQ(noisy.correct(options, execution).field.has_value(), corrects) << deficit << " " << shift;
   }
-  EXPECT_FALSE(correctField(Mesh(), noisy.lattice, noisy.views, {}, execution).field);
+  EXPECT_FALSE(correctField(Mesh(), noisy.lattice, noisy.views, {}, {}, 0, execution).field);
 }
 
 TEST(FieldCorrection, TheHullIsTheBaseOfNearConvexModelsAlone)
@@ -224,7 +224,7 @@ TEST(FieldCorrection, StrongNoiseIsCorrectedOnACoarserLattice)
   const Corrected corrected(capture, second, 7);
   ASSERT_GT(corrected.correction.deficit, 0.3);
   Execution execution;
-  const auto finer = correctField(corrected.exact, { corrected.lattice.root, 8 }, corrected.views, second, execution);
+  const auto finer = correctField(corrected.exact, { corrected.lattice.root, 8 }, corrected.views, second, {}, 0, execution);
   ASSERT_TRUE(corrected.correction.field && finer.field);
   EXPECT_NEAR(finer.deficit, 2.0 * corrected.correction.deficit, 0.02);
   EXPECT_EQ(finer.field->lattice().depth, 8);
@@ -255,7 +255,7 @@ TEST(FieldCorrection, ASurfaceThatViewsMayDissentFromIsNotPulledBack)
   voting.share = 1.0 - 3.0 / strict.views.size();
   const Octree octree = carveViews(strict.views, unitCube(1.05), Depth, 3);
   const Mesh tolerant = votingMarchingCubes(octree, strict.views, voting, execution).mesh;
-  const FieldCorrection correction = correctField(tolerant, octree.lattice, strict.views, {}, execution);
+  const FieldCorrection correction = correctField(tolerant, octree.lattice, strict.views, {}, {}, 0, execution);
   EXPECT_GT(correction.shift, FieldCorrectionOptions().smallestShift);
   EXPECT_FALSE(correction.field) << correction.deficit;
 }
@@ -267,7 +267,7 @@ TEST(FieldCorrection, TheLatticesBorderStaysOutside)
   const PreparedViews views = captureOf(SyntheticShape::Sphere).prepared();
   const Octree octree = carveViews(views, { Vector3(-0.5, -0.4, -0.3), 1.6 }, 4);
   const Mesh exact = votingMarchingCubes(octree, views, {}, execution).mesh;
-  const auto correction = correctField(exact, octree.lattice, views, {}, execution);
+  const auto correction = correctField(exact, octree.lattice, views, {}, {}, 0, execution);
   ASSERT_TRUE(correction.field);
   int border = 0;
   for (std::size_t n = 0; n < correction.field->size(); ++n)
@@ -279,6 +279,48 @@ TEST(FieldCorrection, TheLatticesBorderStaysOutside)
     }
   }
   EXPECT_GT(border, 500);
+}
+
+/** Where cameras are wrong the corrected field leaves survivors outside; raised, a few of them, whether or not it comes from a coarser lattice. */
+TEST(FieldCorrection, TheFieldIsRaisedToTheSurvivorsFromTheViewsAsTheirCamerasSay)
+{
+  Execution execution;
+  Capture& capture = captureOf(SyntheticShape::Torus);
+  for (const auto& [camera, depth] : { std::pair(1.5, 6), std::pair(1.5, 7) })
+  {
+    capture.draw(0, camera, 3);
+    const Corrected corrected(capture, {}, depth);
+    ASSERT_TRUE(corrected.correction.field);
+    ASSERT_GT(corrected.correction.alignment, 0.3);
+    const auto lost = [&](const BrickField& field)
+    {
+      return std::count_if(corrected.survivors.begin(), corrected.survivors.end(),
+        [&](std::uint64_t cell)
+        {
+          bool any = false;
+          for (int corner = 0; corner < 8; ++corner)
+          {
+            const std::ptrdiff_t at = field.find(mortonCode(fromMorton(cell) + cornerOffset(corner)));
+            any = any || at < 0 || field.values()[std::size_t(at)] > 0.0f;
+          }
+          return !any;
+        });
+    };
+    const auto raised =
+      correctField(corrected.exact, corrected.lattice, corrected.views, {}, corrected.survivors, 0, execution);
+    FieldCorrectionOptions none;
+    none.raiseWidth = 0.0;
+    const auto same = correctField(corrected.exact, corrected.lattice, corrected.views, none, corrected.survivors, 0, execution);
+    ASSERT_TRUE(raised.field && same.field);
+    EXPECT_EQ(same.field->values(), corrected.correction.field->values());
+    ASSERT_EQ(raised.field->bricks(), same.field->bricks());
+    for (std::size_t n = 0; n < raised.field->size(); ++n)
+    {
+      EXPECT_GE(raised.field->values()[n], same.field->values()[n]);
+    }
+    EXPECT_GT(lost(*same.field), 50) << depth;
+    EXPECT_LT(lost(*raised.field), 0.7 * double(lost(*same.field))) << depth;
+  }
 }
 
 TEST(FieldCorrection, OptionsOutOfRangeAreErrorsThatNameTheValue)
@@ -302,7 +344,7 @@ TEST(FieldCorrection, OptionsOutOfRangeAreErrorsThatNameTheValue)
   };
   for (const auto member : { &Options::smallestDeficit, &Options::smallestShift, &Options::hullConvexity,
          &Options::modelDissent, &Options::smoothing, &Options::greatestSmoothing,
-         &Options::gentleness, &Options::shiftNoise, &Options::contourReach })
+         &Options::gentleness, &Options::shiftNoise, &Options::contourReach, &Options::raiseWidth })
   {
     Options options;
     options.*member = -1.5;
@@ -320,6 +362,9 @@ TEST(FieldCorrection, OptionsOutOfRangeAreErrorsThatNameTheValue)
     }
   }
   Options options;
+  options.raiseWidth = 64.5;
+  expectError(options, "64.5");
+  options = {};
   options.modelDissent = 1.25;
   expectError(options, "1.25");
   options = {};

@@ -326,3 +326,27 @@ TEST(FieldViews, SameForAnyNumberOfThreads)
     }
   }
 }
+
+/** What has been observed for one lattice, views shifted, serves another, from where the cameras are. */
+TEST(FieldViews, LooksAtAnotherLattice)
+{
+  Execution execution;
+  const PreparedViews views = sphereViews(5);
+  const Lattice coarse{ unitCube(), 4 }, fine{ unitCube(), 5 };
+  FieldViews moved(views, coarse, 2.0, 2.0), made(views, fine, 4.0, 1.0); // the same samples
+  moved.observe(allOf(moved), execution);
+  made.observe(allOf(made), execution);
+  moved.addShift(2, Vector2(3.0, -1.0));
+  moved.look(fine, 4.0);
+  EXPECT_EQ(moved.reach(), 4.0);
+  EXPECT_EQ(moved.lattice().depth, 5);
+  for (int view = 0; view < views.size(); ++view)
+  {
+    EXPECT_TRUE(moved.shift(view).isZero());
+    EXPECT_EQ(moved.pixelsPerOctant(view), made.pixelsPerOctant(view));
+    for (const LatticePoint& p : somePoints(fine, 500, std::uint64_t(view)))
+    {
+      EXPECT_EQ(moved.inside(moved.observed(view), moved.place(view, p)), made.inside(made.observed(view), made.place(view, p)));
+    }
+  }
+}

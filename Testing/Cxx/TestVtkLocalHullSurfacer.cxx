@@ -122,7 +122,7 @@ TEST(VtkLocalHullSurfacer, IsAProperFilter)
                {"FillCavities", "CoverOffset", "BridgeGap", "HullTolerance", "SeedBlock", "GenerateNormals",
                 "OutputPointsPrecision", "Mode", "IslandShare", "RepairSilhouettes", "AlignViews", "CorrectField",
                 "ThinHulls", "JoinHandles", "HandleReach", "FillTunnels", "TunnelWidth", "LoopLength", "SpeckleArea", "SpeckleShare", "BlobDepth", "BlobChord", "BlobCorners",
-                "SmallestDeficit", "SmallestShift", "HullConvexity", "ModelDissent", "Smoothing", "GreatestSmoothing", "Gentleness", "ShiftNoise", "Alignments", "ContourReach",
+                "SmallestDeficit", "SmallestShift", "HullConvexity", "ModelDissent", "Smoothing", "GreatestSmoothing", "Gentleness", "ShiftNoise", "Alignments", "ContourReach", "RaiseWidth",
                 "ThinSmallestRadius", "ThinLargestRadius", "ThinReach", "SliceAxis", "SliceTolerance",
                 "ChainTolerance", "ChainOverlap", "Controller"});
   expectModifies(filter, [&] { filter->SetModeToThesis(); });

@@ -146,6 +146,8 @@ const Stage Stages[] = {
      [](LocalHullOptions& o) { o.correction.moveSurface = false; }},
     {"no-hull-base", "without the hull as base of a near-convex field",
      [](LocalHullOptions& o) { o.correction.hullConvexity = 1.0; }},
+    {"no-raising", "without the field's raising to survivors",
+     [](LocalHullOptions& o) { o.correction.raiseWidth = 0.0; }},
     {"no-noise-stages", "without all three: labels by votes, covered",
      [](LocalHullOptions& o)
      { o.repairSilhouettes = o.correction.alignViews = o.correction.moveSurface = false; }},

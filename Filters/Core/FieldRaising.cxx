@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FieldRaising.h"
+
+#include "FieldSmoothing.h"
+#include "IndicesWhere.h"
+#include "LeastDistances.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace silhouette
+{
+namespace
+{
+
+/** Octants: so far inside of the survivors' own surface the field is raised. Nearer few more are covered, and it all stands further out; see method.md. */
+constexpr float Margin = 0.1f;
+constexpr float LeastWeight = 0.01f; ///< below which nothing is raised
+constexpr std::size_t BlockPoints = FieldViews::BlockPoints;
+
+/** Those of some cells all of whose corners have values, none of them a positive one. */
+std::vector<std::uint64_t> lostCells(const BrickField& field, const std::vector<std::uint64_t>& cells, Execution& execution)
+{
+  const auto makeTest = [&]
+  {
+    return [&, bricks = BrickCursor(field)](std::size_t n) mutable
+    {
+      const LatticePoint lowest = fromMorton(cells[n]);
+      bool isLost = true;
+      for (int corner = 0; corner < 8 && isLost; ++corner)
+      {
+        const std::ptrdiff_t at = bricks.find(mortonCode(lowest + cornerOffset(corner)));
+        isLost = at >= 0 && !(field.values()[std::size_t(at)] > 0.0f);
+      }
+      return isLost;
+    };
+  };
+  std::vector<std::uint64_t> lost;
+  for (const std::int32_t n : indicesWhereTests(cells.size(), 4096, execution, makeTest))
+  {
+    lost.push_back(cells[std::size_t(n)]);
+  }
+  return lost;
+}
+
+/** How much of the raising is done at the points around some cells: 1 at their corners, then ever less. */
+class Weights
+{
+public:
+  Weights(const Lattice& lattice, const std::vector<std::uint64_t>& cells, double width, Execution& execution)
+    : Field(lattice, cells, int(gaussianKernel(width).size()), execution)
+  {
+    BrickCursor bricks(this->Field);
+    for (const std::uint64_t cell : cells)
+    {
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        this->Field.values()[std::size_t(bricks.find(mortonCode(fromMorton(cell) + cornerOffset(corner))))] = 1.0f;
+      }
+    }
+    FieldSmoother().blur(this->Field, width, execution);
+    // What is left at the corners of a cell that is alone: nowhere less is left at a lost one's, but for rounding.
+    const std::vector<float> kernel = gaussianKernel(width);
+    const double alone = double(kernel[0]) + double(kernel[1]);
+    this->Gain = float(1.001 / (alone * alone * alone));
+  }
+
+  const BrickField& field() const { return this->Field; }
+
+  float at(std::size_t n) const
+  {
+    const float w = std::min(1.0f, this->Gain * this->Field.values()[n]);
+    return w * w * (3.0f - 2.0f * w);
+  }
+
+  bool isAny(std::size_t block) const
+  {
+    const auto first = this->Field.values().begin() + std::ptrdiff_t(block);
+    return std::any_of(first, first + BlockPoints, [this](float value) { return this->Gain * value >= LeastWeight; });
+  }
+
+private:
+  BrickField Field;
+  float Gain;
+};
+
+} // namespace
+
+void raiseToSurvivors(BrickField& field, const std::vector<std::uint64_t>& survivors, const FieldViews& views, int backgroundVotes, double width, Execution& execution)
+{
+  const std::vector<std::uint64_t> lost = lostCells(field, survivors, execution);
+  if (lost.empty())
+  {
+    return;
+  }
+  const Weights weights(field.lattice(), lost, width, execution);
+  const auto raise = [&](std::size_t block, const float* least)
+  {
+    const std::ptrdiff_t at = field.find(weights.field().code(block));
+    if (at < 0)
+    {
+      return;
+    }
+    float* const values = &field.values()[std::size_t(at)];
+    const float* const bound = least + std::size_t(backgroundVotes) * BlockPoints;
+    for (std::size_t n = 0; n < BlockPoints; ++n)
+    {
+      values[n] += weights.at(block + n) * std::max(0.0f, bound[n] - Margin - values[n]);
+    }
+  };
+  forLeastDistances(weights.field(), views, backgroundVotes + 1, [&](std::size_t block) { return weights.isAny(block); }, raise, execution);
+}
+
+} // namespace silhouette
