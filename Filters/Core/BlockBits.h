@@ -129,11 +129,16 @@ template <typename CellsOf> std::uint64_t pointsTouching(std::uint64_t block, co
   return points;
 }
 
+/** Has a block, given by its lowest point, points on the root cube's border? */
+inline bool touchesBorder(const Lattice& lattice, const LatticePoint& lowest)
+{
+  return lattice.onBorder(lowest) || lattice.onBorder(lowest + LatticePoint{ BlockSide - 1, BlockSide - 1, BlockSide - 1 });
+}
+
 /** The points of a block that lie within the root cube and not on its border. */
 inline std::uint64_t withinBorder(const Lattice& lattice, std::uint64_t block)
 {
-  const LatticePoint low = fromMorton(64 * block);
-  if (!lattice.onBorder(low) && !lattice.onBorder(low + LatticePoint{ BlockSide - 1, BlockSide - 1, BlockSide - 1 }))
+  if (!touchesBorder(lattice, fromMorton(64 * block)))
   {
     return ~std::uint64_t(0);
   }

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldCorrection.h"
 
+#include "BlockBits.h"
 #include "ContourDeficit.h"
 #include "ContourLimit.h"
 #include "Error.h"
+#include "FieldRaising.h"
 #include "FieldRefinement.h"
 #include "FieldSmoothing.h"
-#include "FieldRaising.h"
 #include "FirstTouch.h"
 #include "LeastDistances.h"
+#include "NearViews.h"
 #include "SurfaceCells.h"
 #include "ViewAgreement.h"
 #include "ViewAlignment.h"
@@ -214,12 +216,6 @@ private:
     forLeastDistances(this->Least, this->Views, rank, [](std::size_t) { return true; }, take, execution);
   }
 
-  bool touchesBorder(const LatticePoint& block) const
-  {
-    const int last = FieldViews::BlockSize - 1;
-    return this->Views.lattice().onBorder(block) || this->Views.lattice().onBorder(block + LatticePoint{ last, last, last });
-  }
-
   /** From the least distance to the model, and from the model to where the views agree. */
   void move(FieldCorrection& result, Execution& execution)
   {
@@ -286,7 +282,7 @@ private:
         }
         float agreed[BlockPoints];
         this->agree(near, own.data(), seen.data(), agreed);
-        const bool atBorder = this->touchesBorder(lowest);
+        const bool atBorder = touchesBorder(this->Views.lattice(), lowest);
         for (std::size_t n = 0; n < BlockPoints; ++n)
         {
           if (inBand(model[block + n]))

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "BlockBits.h"
 #include "NearViews.h"
 
 #include <algorithm>
@@ -26,11 +27,6 @@ void forLeastDistances(const BrickField& field, const FieldViews& views, int ran
 {
   constexpr std::size_t points = FieldViews::BlockPoints;
   const float far = float(views.reach());
-  const auto touchesBorder = [&](const LatticePoint& lowest)
-  {
-    const int last = FieldViews::BlockSize - 1;
-    return views.lattice().onBorder(lowest) || views.lattice().onBorder(lowest + LatticePoint{ last, last, last });
-  };
   const auto makeWork = [&]
   {
     return [&, kept = std::vector<float>(std::size_t(rank) * points)](std::size_t block, const std::vector<NearView>& near) mutable
@@ -50,7 +46,7 @@ void forLeastDistances(const BrickField& field, const FieldViews& views, int ran
         views.insideBlock(view, lowest, region, { { views.observed(view), distance } });
         keepLeast(distance, kept.data(), rank);
       }
-      const bool atBorder = touchesBorder(lowest);
+      const bool atBorder = touchesBorder(views.lattice(), lowest);
       for (std::size_t n = 0; n < kept.size() && atBorder; ++n)
       {
         kept[n] = views.lattice().onBorder(lowest + fromMorton(n % points)) ? -far : kept[n];

@@ -108,6 +108,12 @@ int projectionRank(const Projection& projection)
       rows.row(row) = (projection.row(row) / largest).normalized();
     }
   }
+  // Nor does the unit of length, by which the last column differs from the others.
+  const double left = rows.leftCols<3>().cwiseAbs().maxCoeff(), last = rows.col(3).cwiseAbs().maxCoeff();
+  if (left > 0.0 && last > 0.0)
+  {
+    rows.col(3) *= left / last;
+  }
   Eigen::FullPivLU<Eigen::Matrix<double, 3, 4>> decomposition(rows);
   decomposition.setThreshold(1e-12);
   return int(decomposition.rank());

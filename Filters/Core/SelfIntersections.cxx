@@ -15,9 +15,9 @@ namespace silhouette
 namespace
 {
 
-constexpr std::size_t Block = 32;        ///< items whose pairs are written to one place
-constexpr std::size_t MostBatches = 16;  ///< times that a run asks whether it is cancelled
-constexpr std::size_t BatchBlocks = 128; ///< that are worth asking once more
+constexpr std::size_t Block = 8;         ///< items whose pairs are written to one place
+constexpr std::size_t MostBatches = 128; ///< times that a run asks whether it is cancelled
+constexpr std::size_t ThreadBlocks = 8;  ///< that keep a thread busy until it is asked once more
 
 using PairList = std::vector<TrianglePair>;
 
@@ -26,7 +26,8 @@ PairList collect(std::size_t items, const std::function<void(std::size_t, PairLi
   Execution& execution, double from)
 {
   const std::size_t blocks = (items + Block - 1) / Block;
-  const std::size_t batches = std::clamp(blocks / BatchBlocks, std::size_t(1), MostBatches);
+  const std::size_t busy = ThreadBlocks * std::size_t(std::max(execution.threads(), 1));
+  const std::size_t batches = std::clamp(blocks / busy, std::size_t(1), MostBatches);
   std::vector<PairList> lists(blocks);
   for (std::size_t batch = 0; batch < batches; ++batch)
   {

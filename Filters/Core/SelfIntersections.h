@@ -21,8 +21,8 @@ using TrianglePair = std::array<std::int32_t, 2>;
 /**
  * All pairs, sorted, each once; the same for any number of threads. Throws InvalidInput for an invalid mesh,
  * Cancelled. Cost: n log n and the pairs of triangles whose boxes overlap; about 1.5 s for a million
- * triangles on one thread, some four times that where all neighbours lie in one plane; 200 bytes of memory a
- * triangle.
+ * triangles on one thread, some four times that where all neighbours lie in one plane; the square of the triangles where all boxes overlap, as in a fan of
+ * long ones around a point; 200 bytes of memory a triangle.
  */
 std::vector<TrianglePair> selfIntersections(const Mesh& mesh, Execution& execution);
 

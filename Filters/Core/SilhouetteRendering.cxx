@@ -155,9 +155,14 @@ bool isFilled(const BinaryImage& image, int row, int first, int last)
   return std::all_of(pixels + first, pixels + last + 1, [](std::uint8_t pixel) { return pixel != 0; });
 }
 
-/** As of most triangles of a fine mesh. */
+/** Is all of a box object, as of most triangles of a fine mesh? Of a large one that is not asked: false. */
 bool isFilled(const BinaryImage& image, const ImageBox& box)
 {
+  constexpr std::int64_t Small = 256; // pixels
+  if (box.left <= box.right && box.top <= box.bottom && std::int64_t(box.right - box.left + 1) * (box.bottom - box.top + 1) > Small)
+  {
+    return false;
+  }
   int row = box.top;
   while (row <= box.bottom && (box.left > box.right || isFilled(image, row, box.left, box.right)))
   {
@@ -169,9 +174,10 @@ bool isFilled(const BinaryImage& image, const ImageBox& box)
 /** `box`: of the polygon. */
 SILHOUETTE_VECTORISED void fill(const Polygon& polygon, const ImageBox& box, BinaryImage& image)
 {
+  constexpr int Narrow = 16; // columns that are looked at sooner than the polygon's edges
   for (int row = box.top; row <= box.bottom; ++row)
   {
-    if (isFilled(image, row, box.left, box.right))
+    if (box.right - box.left < Narrow && isFilled(image, row, box.left, box.right))
     {
       continue;
     }

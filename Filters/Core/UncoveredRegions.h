@@ -29,7 +29,7 @@ struct LostPartLimits
  * How many pixels of an image lie in lost parts? `uncovered`: the object's pixels that nothing covers, in order; they are joined to regions through sides and corners. `covered`: the image's pixels, of the
  * background too, that something covers.
  *
- * A region that cuts through the object is lost, however short the gap is: one that at least two ends of what is covered and two sides of the background touch, of which holes inside the image, of less than a square of the distance, are none. Of other regions the pixels are lost that are
+ * A region that cuts through the object is lost, however short the gap is: one that at least two ends of what is covered and two sides of the background touch, of which holes inside the image, of less than a square of the distance, are none, nor is the image's border, beyond which the object may go on. Of other regions the pixels are lost that are
  * further from what is covered than the distance, as where a part ends. Cost: two passes over the image, and the uncovered pixels.
  */
 std::uint64_t pixelsOfLostParts(const std::vector<RowColumn>& uncovered, const BinaryImage& covered, const LostPartLimits& limits);

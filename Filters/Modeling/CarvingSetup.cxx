@@ -287,8 +287,7 @@ Lattice makeLattice(const PreparedViews& views, const LatticeSettings& settings,
   return {automaticBounds(views, options, execution), settings.depth};
 }
 
-std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice& lattice,
-                                      bool automaticBounds)
+std::vector<std::string> viewWarnings(const PreparedViews& views)
 {
   std::vector<std::string> warnings;
   std::vector<Projection> projections;
@@ -297,26 +296,15 @@ std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice&
   for (int i = 0; i < views.size(); ++i)
   {
     const PreparedView& view = views[i];
-    const std::string name = describeView(std::size_t(i), view.name);
-    std::string warning = silhouetteWarning(view, name);
+    std::string warning = silhouetteWarning(view, describeView(std::size_t(i), view.name));
     if (!warning.empty())
     {
       silhouettes.push_back(std::move(warning));
-    }
-    if (cameraInside(view.projection, lattice.root))
-    {
-      warnings.push_back(name +
-                         ": the camera is inside the root cube; the view says nothing of what is behind it");
     }
     projections.push_back(view.projection);
     names.push_back(view.name);
   }
   appendJoined(silhouettes, warnings);
-  if (views.size() == 1 && !automaticBounds)
-  {
-    warnings.push_back("only " + describeView(0, views[0].name) +
-                       ": the object is bounded by the given box alone along the line of sight");
-  }
   std::string away = lookingAwayWarning(views);
   if (!away.empty())
   {
@@ -326,6 +314,25 @@ std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice&
   if (!projective.empty())
   {
     warnings.push_back(std::move(projective));
+  }
+  return warnings;
+}
+
+std::vector<std::string> latticeWarnings(const PreparedViews& views, const Lattice& lattice, bool automaticBounds)
+{
+  std::vector<std::string> warnings;
+  for (int i = 0; i < views.size(); ++i)
+  {
+    if (cameraInside(views[i].projection, lattice.root))
+    {
+      warnings.push_back(describeView(std::size_t(i), views[i].name) +
+                         ": the camera is inside the root cube; the view says nothing of what is behind it");
+    }
+  }
+  if (views.size() == 1 && !automaticBounds)
+  {
+    warnings.push_back("only " + describeView(0, views[0].name) +
+                       ": the object is bounded by the given box alone along the line of sight");
   }
   return warnings;
 }
@@ -357,11 +364,15 @@ CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings
     Phase bounding(part, 0.0, 0.25);
     LatticeSettings own = settings;
     own.backgroundVotes = backgroundVotes;
-    const Lattice lattice = makeLattice(used, own, bounding);
-    for (const std::string& warning : warned ? std::vector<std::string>()
-                                             : viewWarnings(used, lattice, settings.automaticBounds))
+    const auto tell = [&](const std::vector<std::string>& warnings) { std::for_each(warnings.begin(), warnings.end(), warn); };
+    if (!warned)
     {
-      warn(warning);
+      tell(viewWarnings(used)); // before the bounds, which such views may not give
+    }
+    const Lattice lattice = makeLattice(used, own, bounding);
+    if (!warned)
+    {
+      tell(latticeWarnings(used, lattice, settings.automaticBounds));
     }
     warned = true;
     Phase carving(part, 0.25, 1.0);

@@ -32,9 +32,11 @@ struct LatticeSettings
  * throws. */
 Lattice makeLattice(const PreparedViews& views, const LatticeSettings& settings, Execution& execution);
 
-/** Warnings that need no octree; each names the view. */
-std::vector<std::string> viewWarnings(const PreparedViews& views, const Lattice& lattice,
-                                      bool automaticBounds);
+/** Warnings that need no lattice: odd silhouettes, cameras that look away, matrices that are no cameras'; each names the view. */
+std::vector<std::string> viewWarnings(const PreparedViews& views);
+
+/** Warnings that need no octree: cameras inside the root cube, a view alone in a given box; each names the view. */
+std::vector<std::string> latticeWarnings(const PreparedViews& views, const Lattice& lattice, bool automaticBounds);
 
 /** What an octree is carved from. */
 struct UsedViews
@@ -68,8 +70,8 @@ struct FoundTolerance
 /**
  * Find the lattice and carve. With `automaticTolerance`, settings.backgroundVotes are the least, and more
  * votes, or dilated silhouettes, are taken where the silhouettes are not covered (CarvingTolerance.h). What
- * views and lattice deserve as warnings goes to `warn`, before carving: where nothing survives, these say
- * why. Of a piece its own trees alone are carved; with `automaticTolerance` the whole is carved first, since
+ * views and lattice deserve as warnings goes to `warn`, before carving, and the views' before the bounds are found: where nothing
+ * survives, or nothing bounds the object, these say why. Of a piece its own trees alone are carved; with `automaticTolerance` the whole is carved first, since
  * the tolerance is the whole's. What it came to is left in `found`, where it serves the pieces after the first.
  */
 CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings, bool automaticTolerance,

@@ -2,7 +2,7 @@
 /**
  * Image files, decoded by VTK's readers, PNG, JPEG, PNM and BMP, and by libtiff (TiffFile.h). Private to the module.
  *
- * The readers run one after the other: VTK promises nothing about several at the same time.
+ * Images may be read side by side: each has a reader of its own, and what readers share, libtiff's handlers, is set once.
  */
 #pragma once
 

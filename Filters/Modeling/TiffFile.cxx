@@ -39,8 +39,9 @@ public:
     TIFFGetField(this->get(), TIFFTAG_IMAGELENGTH, &height);
     constexpr std::uint32_t largest = 1000000;
     constexpr double most = 2e5; // pixels for a byte of the file: an empty fax of 10,000 x 10,000 has a third of that
+    const bool isPacked = this->field(TIFFTAG_COMPRESSION) != COMPRESSION_NONE;
     if (width - 1 >= largest || height - 1 >= largest ||
-        double(width) * height > most * double(std::filesystem::file_size(file)))
+        double(width) * height > (isPacked ? most : 8.0) * double(std::filesystem::file_size(file)))
     {
       this->fail("its size makes no sense");
     }
@@ -81,33 +82,32 @@ public:
            TIFFScanlineSize(this->get()) == tmsize_t(this->Size[0]) * 2;
   }
 
-  /** 1 where a value is 1, of rows of 16 bits that hold nothing greater, else nothing; the lowest row first. */
-  std::vector<unsigned char> ones() const
+  /** The values of such rows as 8 bits, by 257, but where there are only zeros and ones as they are; the lowest row first. */
+  std::vector<unsigned char> wideRows() const
   {
     const auto width = std::size_t(this->Size[0]), height = std::size_t(this->Size[1]);
     std::uint16_t orientation = ORIENTATION_TOPLEFT;
     TIFFGetFieldDefaulted(this->get(), TIFFTAG_ORIENTATION, &orientation);
     const bool fromTop = orientation == ORIENTATION_TOPLEFT || orientation == ORIENTATION_TOPRIGHT;
     const bool fromRight = orientation == ORIENTATION_TOPRIGHT || orientation == ORIENTATION_BOTRIGHT;
-    std::vector<unsigned char> ones(width * height);
-    std::vector<std::uint16_t> row(width);
+    std::vector<std::uint16_t> values(width * height);
     for (std::size_t r = 0; r < height; ++r)
     {
-      if (TIFFReadScanline(this->get(), row.data(), std::uint32_t(r), 0) < 0)
+      std::uint16_t* const row = &values[width * (fromTop ? height - 1 - r : r)];
+      if (TIFFReadScanline(this->get(), row, std::uint32_t(r), 0) < 0)
       {
         this->fail("it is damaged, or ends too soon");
       }
-      unsigned char* const out = &ones[width * (fromTop ? height - 1 - r : r)];
-      for (std::size_t c = 0; c < width; ++c)
+      if (fromRight)
       {
-        if (row[c] > 1)
-        {
-          return {};
-        }
-        out[fromRight ? width - 1 - c : c] = static_cast<unsigned char>(row[c]);
+        std::reverse(row, row + width);
       }
     }
-    return ones;
+    const bool isMask = std::all_of(values.begin(), values.end(), [](std::uint16_t value) { return value <= 1; });
+    std::vector<unsigned char> bytes(values.size());
+    std::transform(values.begin(), values.end(), bytes.begin(),
+                   [isMask](std::uint16_t value) { return static_cast<unsigned char>(isMask ? value : (value + 128) / 257); });
+    return bytes;
   }
 
   bool isGrey() const
@@ -182,20 +182,18 @@ bool isTiffFile(const std::filesystem::path& file)
 vtkSmartPointer<vtkImageData> readTiff(const std::filesystem::path& file)
 {
   const Tiff tiff(file);
-  const std::vector<std::uint32_t> pixels = tiff.pixels();
   const int colours = tiff.isGrey() ? 1 : 3, channels = colours + (tiff.hasOpacity() ? 1 : 0);
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(tiff.size()[0], tiff.size()[1], 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, channels);
   auto* out = static_cast<unsigned char*>(image->GetScalarPointer());
-  // Ones among values of 16 bits are nothing among those of 8, but object in a mask.
-  const bool isBlack = std::all_of(pixels.begin(), pixels.end(), [](std::uint32_t pixel) { return TIFFGetR(pixel) == 0; });
-  const std::vector<unsigned char> ones = channels == 1 && isBlack && tiff.hasWideRows() ? Tiff(file).ones() : std::vector<unsigned char>();
-  if (!ones.empty())
+  if (channels == 1 && tiff.hasWideRows())
   {
-    std::copy(ones.begin(), ones.end(), out);
+    const std::vector<unsigned char> bytes = tiff.wideRows(); // libtiff's own 8 bits cut off, and a 255 would be nothing
+    std::copy(bytes.begin(), bytes.end(), out);
     return image;
   }
+  const std::vector<std::uint32_t> pixels = tiff.pixels();
   for (const std::uint32_t pixel : pixels)
   {
     const unsigned char parts[4] = {static_cast<unsigned char>(TIFFGetR(pixel)), static_cast<unsigned char>(TIFFGetG(pixel)),

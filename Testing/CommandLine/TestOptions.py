@@ -255,6 +255,9 @@ class Largest(ProgramTest):
         self.assertGreater(one["dropped_octants"], 0)
         self.assertLess(one["volume"], both["volume"])
         self.assertGreater(one["volume"], 0.9 * both["volume"])
+        for capture, dropped in ((capture, None), (self.capture, 0)):
+            pieces = self.reconstruct("--surface", "voting", "--pieces", 3, "--largest", *(box if dropped is None else []), capture=capture)
+            self.assertEqual((pieces["components"], pieces["lost_surface"], pieces["dropped_octants"]), (1, None, dropped))
 
     def test_islands_are_given_up_and_counted(self):
         capture = self.boxes()

@@ -194,7 +194,8 @@ TEST(FieldRaising, AFieldThatLosesNothingKeepsItsBytesAndSoDoesOneWithoutValuesT
   raiseToSurvivors(same, whole.survivors, whole.seen, 0, 1.5, execution);
   EXPECT_EQ(same.values(), whole.field.values());
 
-  const Scene dented;
+  const Scene dented(0, 0.78, 4.0);
+  ASSERT_FALSE(dented.lost(dented.field).empty());
   std::vector<std::uint8_t> keep;
   for (const std::uint64_t brick : dented.field.bricks())
   {

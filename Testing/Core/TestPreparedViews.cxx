@@ -108,6 +108,20 @@ TEST(PreparedViews, ErrorsNameTheViewAndTheValue)
   EXPECT_EQ(messageOf({ bad }), "view 0 (a.png): the silhouette is empty, 0 x 0 pixels");
 }
 
+TEST(PreparedViews, RankIsThatInAnyUnitOfLength)
+{
+  Random random(6);
+  const Projection camera = randomView(random, 4, 4).projection;
+  Projection flat = camera;
+  flat.row(2) = flat.row(0) - 3.0 * flat.row(1);
+  for (const double unit : { 1e-30, 1e-12, 1.0, 1e12, 1e30 })
+  {
+    const Eigen::Vector4d scale(1.0 / unit, 1.0 / unit, 1.0 / unit, 1.0);
+    EXPECT_EQ(projectionRank(camera * scale.asDiagonal()), 3) << unit;
+    EXPECT_EQ(projectionRank(flat * scale.asDiagonal()), 2) << unit;
+  }
+}
+
 TEST(PreparedViews, FingerprintTellsViewsAndPoliciesApartButNotNames)
 {
   Random random(5);

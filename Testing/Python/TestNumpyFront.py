@@ -215,6 +215,17 @@ class TestErrors(unittest.TestCase):
         for share in (0, -0.5, 1.5, np.nan):
             self.check(ValueError, f"vote_share is {share}, it is above 0", vote_share=share)
         self.check(TypeError, "vote_share is 'all', it is a number", vote_share="all")
+        for name in ("surface", "carving", "outside", "mode", "edges"):
+            self.check(TypeError, rf"{name} is \['a'\], it is one of", **{name: ["a"]})
+        for bounds in ("abc", [[0, 1], [0]], np.full(6, 1j)):
+            self.check(TypeError, "bounds are .*, they are an array of numbers", bounds=bounds)
+        for projections in ("abc", [[1.0], [1.0, 2.0]], self.projections * 1j):
+            self.check(TypeError, "(?s)projections are .*, they are an array of numbers", projections=projections)
+
+    def test_switches_may_be_numpy_numbers(self):
+        masks = self.masks
+        first = reconstruct(masks, self.projections, depth=4, repair=np.int64(1), tunnels=np.bool_(False))
+        np.testing.assert_array_equal(first[0], reconstruct(masks, self.projections, depth=4, tunnels=False)[0])
 
     def test_options_are_looked_at_for_any_surface(self):
         for surface in ("local-hull", "voting", "marching-cubes"):
@@ -225,7 +236,9 @@ class TestErrors(unittest.TestCase):
                     self.check(ValueError, f"drop_islands is {share}, it is 0 to 1", surface=surface, drop_islands=share)
                 self.check(TypeError, "drop_islands is None, it is a number", surface=surface, drop_islands=None)
                 for name in ("repair", "alignment", "correction", "thin_hulls", "handles", "tunnels"):
-                    self.check(ValueError, f"{name} is 'no', it is True or False", surface=surface, **{name: "no"})
+                    for no in ("no", 1.0, None):
+                        self.check(TypeError, f"{name} is {no!r}, it is True or False", surface=surface, **{name: no})
+                    self.check(ValueError, f"{name} is 2, it is True or False", surface=surface, **{name: 2})
 
     def test_options_of_the_octree(self):
         for wrong, words in (({"depth": 17}, "depth is 17"), ({"vote_share": 0}, "vote_share is 0"),

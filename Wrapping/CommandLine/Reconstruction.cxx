@@ -287,7 +287,8 @@ void Reconstruction::evaluate(vtkPolyData* stored)
 {
   std::uint64_t lost = 0;
   const bool dropped = this->Kept->GetNumberOfPolys() < this->Surface->GetNumberOfPolys();
-  if (dropped)
+  const bool hasOctree = this->Options.pieces == 1; // the whole one, to judge against
+  if (dropped && hasOctree)
   {
     this->Evaluator->SetInputData(this->Surface);
     this->Run.run(this->Evaluator, "evaluate", "judging the whole surface");
@@ -304,18 +305,15 @@ void Reconstruction::evaluate(vtkPolyData* stored)
   this->Evaluator->SetInputData(stored);
   this->Run.run(this->Evaluator, "evaluate", "judging the mesh");
   const std::uint64_t lostNow = fieldCount(this->Evaluator->GetOutput(), "LostSurface");
-  this->Found["lost_surface"] = dropped ? lost : lostNow;
-  if (this->Options.pieces > 1)
-  {
-    this->Found["lost_surface"] = nullptr; // judged against the whole octree only
-  }
-  this->DroppedOctants = fieldCount(this->Surface, "DroppedOctants") + // islands and debris
-    (dropped ? lostNow - std::min(lost, lostNow) : 0);
+  this->Found["lost_surface"] = hasOctree ? Metrics(dropped ? lost : lostNow) : Metrics();
+  this->Found["dropped_octants"] = hasOctree || !dropped
+    ? Metrics(fieldCount(this->Surface, "DroppedOctants") + (dropped ? lostNow - std::min(lost, lostNow) : 0)) // islands and debris, and the other components
+    : Metrics();
 }
 
 void Reconstruction::gatherMetrics(vtkPolyData* stored)
 {
-  const Metrics lostSurface = this->Found["lost_surface"];
+  const Metrics lostSurface = this->Found["lost_surface"], droppedOctants = this->Found["dropped_octants"];
   vtkPolyData* cubes = this->cubes();
   Metrics metrics;
   metrics["program"] = "vtksilhouette reconstruct";
@@ -330,7 +328,7 @@ void Reconstruction::gatherMetrics(vtkPolyData* stored)
   metrics["lost_no_corner"] = fieldCount(cubes, "LostNoCorner");
   metrics["lost_all_corners"] = fieldCount(cubes, "LostAllCorners");
   metrics["lost_surface"] = lostSurface;
-  metrics["dropped_octants"] = this->DroppedOctants;
+  metrics["dropped_octants"] = droppedOctants;
   metrics["cavities_filled"] = fieldCount(this->Surface, "CavitiesFilled");
   metrics["marching_cubes_points"] = cubes->GetNumberOfPoints();
   metrics["marching_cubes_triangles"] = cubes->GetNumberOfPolys();

@@ -69,7 +69,6 @@ private:
   Stages Run;
   Metrics Found;
   double Share = 1.0;
-  std::uint64_t DroppedOctants = 0;
   PieceSurface Pieces;
   vtkSmartPointer<vtkPolyData> Truth;
   vtkSmartPointer<vtkPolyData> Surface; ///< whole

@@ -220,7 +220,9 @@ def _local_hulls(mode, drop_islands, **switches):
         raise ValueError(f"drop_islands is {drop_islands!r}, it is 0 to 1")
     hulls.SetIslandShare(share)
     for setter, (name, value) in switches.items():
-        if not isinstance(value, (bool, np.bool_, int)) or value not in (0, 1):
+        if not isinstance(value, (bool, np.bool_, int, np.integer)):
+            raise TypeError(f"{name} is {value!r}, it is True or False")
+        if value not in (0, 1):
             raise ValueError(f"{name} is {value!r}, it is True or False")
         getattr(hulls, "Set" + setter)(bool(value))
     return hulls
@@ -245,7 +247,7 @@ def _share(vote_share):
 
 def _box(bounds):
     """The six bounds, as a list."""
-    box = np.asarray(bounds, np.float64).ravel()
+    box = _numbers("bounds", bounds).ravel()
     if box.shape != (6,) or not np.all(np.isfinite(box)) or not np.all(box[0::2] < box[1::2]):
         raise ValueError(f"bounds are {bounds!r}, they are xmin < xmax, ymin < ymax, zmin < zmax")
     return box.tolist()
@@ -277,13 +279,24 @@ def _image(mask, view):
 
 def _matrices(projections, count):
     """The projections as one (count, 3, 4) array of finite numbers."""
-    matrices = np.asarray(projections, np.float64)
+    matrices = _numbers("projections", projections)
     if matrices.shape != (count, 3, 4):
         raise ValueError(f"{count} masks need projections of shape ({count}, 3, 4), not {matrices.shape}")
     for view, matrix in enumerate(matrices):
         if not np.all(np.isfinite(matrix)):
             raise ValueError(f"projection {view} is not finite: {matrix.tolist()}")
     return matrices
+
+
+def _numbers(name, values):
+    """An array of float64; complex numbers are none."""
+    try:
+        array = np.asarray(values)
+        if np.iscomplexobj(array):
+            raise TypeError
+        return array.astype(np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} are {values!r:.200}, they are an array of numbers") from None
 
 
 def _number(name, value):
@@ -294,7 +307,9 @@ def _number(name, value):
 
 
 def _check_choice(name, value, choices):
-    if not isinstance(value, str) or value not in choices:
+    if not isinstance(value, str):
+        raise TypeError(f"{name} is {value!r}, it is one of {', '.join(choices)}")
+    if value not in choices:
         raise ValueError(f"{name} is {value!r}, it is one of {', '.join(choices)}")
 
 
