@@ -378,6 +378,7 @@ void correctOnCoarserLattice(const Mesh& surface, const Lattice& lattice, const 
   result.hull = coarse.hull;
   result.field = halvings == 0 ? std::move(coarse.field)
                                : refinedField(*coarse.field, halvings, cells, RefinedMargin, execution);
+  execution.checkpoint(0.95);
   if (options.raiseWidth > 0.0)
   {
     fieldViews.look(lattice, Lengths(lattice).reach()); // as their cameras say, from where the survivors were carved
