@@ -213,7 +213,9 @@ private:
       std::copy_n(least, BlockPoints, &this->Least.values()[block]);
       std::copy_n(least + std::size_t(rank - 1) * BlockPoints, BlockPoints, &this->Ranked[block]);
     };
-    forLeastDistances(this->Least, this->Views, rank, [](std::size_t) { return true; }, take, execution);
+    const auto allAreFar = [far = float(this->Views.reach())](std::size_t, const float* greatest)
+    { return std::all_of(greatest, greatest + BlockPoints, [far](float value) { return value <= -far; }); };
+    forLeastDistances(this->Least, this->Views, rank, [](std::size_t) { return true; }, allAreFar, take, execution);
   }
 
   /** From the least distance to the model, and from the model to where the views agree. */

@@ -70,7 +70,7 @@ public:
   float at(std::size_t n) const
   {
     const float w = std::min(1.0f, this->Gain * this->Field.values()[n]);
-    return w * w * (3.0f - 2.0f * w);
+    return w < LeastWeight ? 0.0f : w * w * (3.0f - 2.0f * w);
   }
 
   bool isAny(std::size_t block) const
@@ -94,21 +94,28 @@ void raiseToSurvivors(BrickField& field, const std::vector<std::uint64_t>& survi
     return;
   }
   const Weights weights(field.lattice(), lost, width, execution);
+  const auto concerns = [&](std::size_t block) { return weights.isAny(block) && field.find(weights.field().code(block)) >= 0; };
+  const auto valuesOf = [&](std::size_t block) { return &field.values()[std::size_t(field.find(weights.field().code(block)))]; };
+  const auto isSettled = [&](std::size_t block, const float* greatest)
+  {
+    const float* const values = valuesOf(block);
+    std::size_t n = 0;
+    while (n < BlockPoints && (greatest[n] - Margin <= values[n] || weights.at(block + n) == 0.0f))
+    {
+      ++n;
+    }
+    return n == BlockPoints;
+  };
   const auto raise = [&](std::size_t block, const float* least)
   {
-    const std::ptrdiff_t at = field.find(weights.field().code(block));
-    if (at < 0)
-    {
-      return;
-    }
-    float* const values = &field.values()[std::size_t(at)];
+    float* const values = valuesOf(block);
     const float* const bound = least + std::size_t(backgroundVotes) * BlockPoints;
     for (std::size_t n = 0; n < BlockPoints; ++n)
     {
       values[n] += weights.at(block + n) * std::max(0.0f, bound[n] - Margin - values[n]);
     }
   };
-  forLeastDistances(weights.field(), views, backgroundVotes + 1, [&](std::size_t block) { return weights.isAny(block); }, raise, execution);
+  forLeastDistances(weights.field(), views, backgroundVotes + 1, concerns, isSettled, raise, execution);
 }
 
 } // namespace silhouette

@@ -20,10 +20,11 @@ void keepLeast(float* distances, float* least, int rank);
 /**
  * Call `take(block, least)` for each block of the field's for which `concerns(block)` holds, perhaps side by side, with its first point's index and the `rank` least
  * distances of its points, octants, FieldViews::BlockPoints of each, the least first: the whole reach outside, all of them, at points on the root cube's border.
- * `views` have to be observed, all of them, on the field's lattice.
+ * No further view is asked about a block once `isSettled(block, greatest)` holds for the greatest of each point's: they may be greater then than they would be. `views` have to be observed, all of them, on the field's
+ * lattice.
  */
-template <typename Concerns, typename Take>
-void forLeastDistances(const BrickField& field, const FieldViews& views, int rank, const Concerns& concerns, const Take& take, Execution& execution)
+template <typename Concerns, typename IsSettled, typename Take>
+void forLeastDistances(const BrickField& field, const FieldViews& views, int rank, const Concerns& concerns, const IsSettled& isSettled, const Take& take, Execution& execution)
 {
   constexpr std::size_t points = FieldViews::BlockPoints;
   const float far = float(views.reach());
@@ -34,9 +35,8 @@ void forLeastDistances(const BrickField& field, const FieldViews& views, int ran
       const LatticePoint lowest = fromMorton(field.code(block));
       std::fill(kept.begin(), kept.end(), far);
       const float* const greatest = &kept[std::size_t(rank - 1) * points];
-      const auto allAreFar = [&] { return std::all_of(greatest, greatest + points, [far](float value) { return value <= -far; }); };
       float distance[points];
-      for (std::size_t i = 0; i < near.size() && !allAreFar(); ++i)
+      for (std::size_t i = 0; i < near.size() && !isSettled(block, greatest); ++i)
       {
         const auto& [view, region] = near[i];
         if (i + 1 < near.size())

@@ -71,7 +71,8 @@ TEST(LeastDistances, AreThoseOfTheViewsThatAreLeastAndOutsideOnTheBorder)
   std::vector<float> taken(rank * field.size(), -100.0f);
   const auto concerns = [](std::size_t block) { return block / Points % 3 != 1; };
   ThreadedExecution threads(3);
-  forLeastDistances(field, seen, rank, concerns,
+  const auto never = [](std::size_t, const float*) { return false; };
+  forLeastDistances(field, seen, rank, concerns, never,
     [&](std::size_t block, const float* least)
     {
       for (int k = 0; k < rank; ++k)
@@ -111,4 +112,50 @@ TEST(LeastDistances, AreThoseOfTheViewsThatAreLeastAndOutsideOnTheBorder)
   }
   EXPECT_GT(border, 100);
   EXPECT_GT(near, 5000);
+}
+
+TEST(LeastDistances, NoFurtherViewIsAskedAboutWhatIsSettled)
+{
+  Execution execution;
+  const PreparedViews views = prepareViews(viewsOf(sphereMesh(4, 0.7), swayingRing(7, Size), Size));
+  const Lattice lattice{ unitCube(1.05), 5 };
+  FieldViews seen(views, lattice, 4.0);
+  std::vector<int> all(std::size_t(seen.size()));
+  std::iota(all.begin(), all.end(), 0);
+  seen.observe(all, execution);
+  std::vector<std::uint64_t> cells;
+  for (std::uint64_t cell = 0; cell < std::uint64_t(1) << 15; cell += 97)
+  {
+    const double radius = lattice.position(fromMorton(cell)).norm();
+    if (radius > 0.6 && radius < 0.8)
+    {
+      cells.push_back(cell);
+    }
+  }
+  const BrickField field(lattice, cells, 0, execution);
+  std::vector<float> exact(field.size()), bounds(field.size());
+  const auto into = [](std::vector<float>& values)
+  { return [&values](std::size_t block, const float* least) { std::copy_n(least, Points, &values[block]); }; };
+  const auto isAny = [](std::size_t) { return true; };
+  int asked = 0;
+  forLeastDistances(field, seen, 1, isAny, [&](std::size_t, const float*) { return ++asked < 0; }, into(exact), execution);
+  const int whole = asked;
+  asked = 0;
+  const auto isNegative = [&](std::size_t, const float* greatest)
+  {
+    ++asked;
+    return std::all_of(greatest, greatest + Points, [](float value) { return value <= 0.0f; });
+  };
+  forLeastDistances(field, seen, 1, isAny, isNegative, into(bounds), execution);
+  EXPECT_LT(asked, whole);
+  int same = 0, other = 0;
+  for (std::size_t n = 0; n < field.size(); ++n)
+  {
+    EXPECT_GE(bounds[n], exact[n]);
+    EXPECT_EQ(bounds[n] > 0.0f, exact[n] > 0.0f);
+    same += bounds[n] == exact[n];
+    other += bounds[n] != exact[n];
+  }
+  EXPECT_GT(same, 1000);
+  EXPECT_GT(other, 1000);
 }
