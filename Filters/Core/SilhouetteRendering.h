@@ -41,8 +41,8 @@ public:
    * triangles that share it. Where points lie behind the camera or so near its plane that w <= 1e-6 of the
    * greatest w of the mesh, triangles are cut there; what lies behind is not seen. Throws InvalidInput for a
    * width or height below 1, for a triangle that names no point of the mesh, and for a coordinate or a
-   * projection that is not finite. Cost: the points, the triangles, and for each of them the rows that it covers and that are not
-   * object there already.
+   * projection that is not finite. Cost: the points, the triangles, and for each of them the rows that it covers; of small ones whose box is all object already,
+   * the box.
    */
   const BinaryImage& render(const Mesh& mesh, const Projection& projection, int width, int height);
 
