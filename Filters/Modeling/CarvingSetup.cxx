@@ -241,7 +241,8 @@ CarvedViews carveWithTolerance(const SharedViews& views, const LatticeSettings& 
     std::ostringstream text;
     text.precision(3);
     text << "the octree leaves " << 100.0 * found.uncovered
-         << " % of the silhouettes uncovered, more than noise does: a camera, or a silhouette, is probably wrong";
+         << " % of the silhouettes uncovered, more than noise does: a camera, " << (settings.automaticBounds ? "" : "the given box, ")
+         << "or a silhouette, is probably wrong";
     warn(text.str());
   }
   return carved;

@@ -489,11 +489,16 @@ TEST(VtkSilhouetteOctreeSource, WarnsOfWhatNoToleranceExplains)
   const Listener listener(source);
   source->Update();
   EXPECT_TRUE(listener.Errors.empty());
-  EXPECT_EQ(listener.warnings("% of the silhouettes uncovered, more than noise does"), 1);
+  EXPECT_EQ(listener.warnings("% of the silhouettes uncovered, more than noise does: a camera, or a silhouette"), 1);
   source->SetInputData(ringViews());
   const Listener silent(source);
   source->Update();
   EXPECT_TRUE(silent.Warnings.empty());
+  source->SetAutomaticBounds(false);
+  source->SetBounds(-0.2, 0.2, -0.2, 0.2, -0.2, 0.2);
+  const Listener boxed(source);
+  source->Update();
+  EXPECT_EQ(boxed.warnings("more than noise does: a camera, the given box, or a silhouette"), 1);
 }
 
 TEST(VtkSilhouetteOctreeSource, WarnsOnceOfProjectiveCaptures)
