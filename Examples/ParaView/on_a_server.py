@@ -6,8 +6,8 @@
 
 PLUGINS is the folder that the plugin was built into, on either side. CAPTURE is a folder on the server with masks, or
 images that are silhouettes already, and their cameras. Octree and marching cubes are made in pieces, one on each
-rank, that add up to the whole. Local hulls are decided over the whole, on each rank, and each rank gives an even
-share of the triangles. The picture shows octree, marching cubes and local hulls, a colour a rank.
+rank, that add up to the whole. Local hulls are decided over the whole, by the first rank, which sends each an
+even share of the triangles. The picture shows octree, marching cubes and local hulls, a colour a rank.
 """
 
 import argparse

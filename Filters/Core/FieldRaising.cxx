@@ -35,20 +35,16 @@ std::vector<std::uint64_t> lostCells(const BrickField& field, const std::vector<
       return isLost;
     };
   };
-  std::vector<std::uint64_t> lost;
-  for (const std::int32_t n : indicesWhereTests(cells.size(), 4096, execution, makeTest))
-  {
-    lost.push_back(cells[std::size_t(n)]);
-  }
-  return lost;
+  return codesWhere(cells, execution, makeTest);
 }
 
 /** How much of the raising is done at the points around some cells: 1 at their corners, then ever less. */
 class Weights
 {
 public:
-  Weights(const Lattice& lattice, const std::vector<std::uint64_t>& cells, double width, Execution& execution)
-    : Field(lattice, cells, int(gaussianKernel(width).size()), execution)
+  /** `kernel`: along each axis, its weights at 0, 1, 2, ... octants. */
+  Weights(const Lattice& lattice, const std::vector<std::uint64_t>& cells, const std::vector<float>& kernel, Execution& execution)
+    : Field(lattice, cells, int(kernel.size()), execution)
   {
     BrickCursor bricks(this->Field);
     for (const std::uint64_t cell : cells)
@@ -58,9 +54,8 @@ public:
         this->Field.values()[std::size_t(bricks.find(mortonCode(fromMorton(cell) + cornerOffset(corner))))] = 1.0f;
       }
     }
-    FieldSmoother().blur(this->Field, width, execution);
+    FieldSmoother().blur(this->Field, kernel, execution);
     // What is left at the corners of a cell that is alone: nowhere less is left at a lost one's, but for rounding.
-    const std::vector<float> kernel = gaussianKernel(width);
     const double alone = double(kernel[0]) + double(kernel[1]);
     this->Gain = float(1.001 / (alone * alone * alone));
   }
@@ -93,7 +88,7 @@ void raiseToSurvivors(BrickField& field, const std::vector<std::uint64_t>& survi
   {
     return;
   }
-  const Weights weights(field.lattice(), lost, width, execution);
+  const Weights weights(field.lattice(), lost, gaussianKernel(width), execution);
   const auto concerns = [&](std::size_t block) { return weights.isAny(block) && field.find(weights.field().code(block)) >= 0; };
   const auto valuesOf = [&](std::size_t block) { return &field.values()[std::size_t(field.find(weights.field().code(block)))]; };
   const auto isSettled = [&](std::size_t block, const float* greatest)

@@ -278,9 +278,9 @@ void FieldSmoother::smooth(BrickField& field, double sigma, float most, Executio
   }
 }
 
-void FieldSmoother::blur(BrickField& field, double sigma, Execution& execution)
+void FieldSmoother::blur(BrickField& field, const std::vector<float>& kernel, Execution& execution)
 {
-  this->run(field, gaussianKernel(sigma), std::numeric_limits<float>::infinity(), execution);
+  this->run(field, kernel, std::numeric_limits<float>::infinity(), execution);
 }
 
 void FieldSmoother::run(BrickField& field, const std::vector<float>& kernel, float most, Execution& execution)

@@ -28,8 +28,11 @@ public:
    */
   void smooth(BrickField& field, double sigma, float most, Execution& execution);
 
-  /** By gaussianKernel(), which draws surfaces inwards: for fields that are none's. Where bricks end the last value goes on. Cost: as smooth(), a third. */
-  void blur(BrickField& field, double sigma, Execution& execution);
+  /**
+   * Along each axis a symmetric kernel, its weights at 0, 1, 2, ... octants, as of gaussianKernel(), which would draw a surface inwards. Where bricks end the last value goes
+   * on. Cost: as smooth(), by the kernel's length.
+   */
+  void blur(BrickField& field, const std::vector<float>& kernel, Execution& execution);
 
 private:
   void run(BrickField& field, const std::vector<float>& kernel, float most, Execution& execution);

@@ -81,4 +81,16 @@ std::vector<std::int32_t> indicesWhere(std::size_t count, std::size_t grain, Exe
   return indicesWhereTests(count, grain, execution, [&] { return [&](std::size_t n) { return test(n); }; });
 }
 
+/** Those of some codes for whose numbers a test holds, as indicesWhereTests() has it. */
+template <typename MakeTest>
+std::vector<std::uint64_t> codesWhere(const std::vector<std::uint64_t>& codes, Execution& execution, const MakeTest& makeTest)
+{
+  std::vector<std::uint64_t> some;
+  for (const std::int32_t n : indicesWhereTests(codes.size(), 4096, execution, makeTest))
+  {
+    some.push_back(codes[std::size_t(n)]);
+  }
+  return some;
+}
+
 } // namespace silhouette

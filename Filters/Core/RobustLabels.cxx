@@ -135,18 +135,6 @@ void pinWhereBricksEnd(const Octree& octree, BrickField& field, Execution& execu
     });
 }
 
-/** Those of some codes for whose numbers a test holds, as indicesWhereTests() has it. */
-template <typename MakeTest>
-std::vector<std::uint64_t> codesWhere(const std::vector<std::uint64_t>& codes, Execution& execution, const MakeTest& makeTest)
-{
-  std::vector<std::uint64_t> some;
-  for (const std::int32_t n : indicesWhereTests(codes.size(), 4096, execution, makeTest))
-  {
-    some.push_back(codes[std::size_t(n)]);
-  }
-  return some;
-}
-
 /** Last-generation inside octants of `octree` without an inside corner by the labels' source: they need covering too. */
 std::vector<std::uint64_t> disownedOctants(const Octree& octree, const LatticeLabels& labels, Execution& execution)
 {

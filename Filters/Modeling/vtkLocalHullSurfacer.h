@@ -14,7 +14,7 @@
  * | input 2 (optional) | vtkPartitionedDataSetCollection | | | its second output: the views; without, the same promise, less accuracy |
  * | output 0 | vtkPolyData, triangles, normals outwards | points `Normals` | float, 3 | the surface; normals where GenerateNormals is on |
  * | | | field `Survivors` | 64-bit unsigned, 1 | octants of the last generation that survived |
- * | | | field `CoveredOctants` | 64-bit unsigned, 1 | of these, the ones without an inside corner at first |
+ * | | | field `CoveredOctants` | 64-bit unsigned, 1 | of these, the ones that had no inside corner after the corrections, and were given one |
  * | | | field `CoveringCorners` | 64-bit unsigned, 1 | corners labelled inside for their sake |
  * | | | field `Bridges` | 64-bit unsigned, 1 | joints between components of the survivors |
  * | | | field `CavitiesFilled` | 64-bit unsigned, 1 | cavities labelled inside |
@@ -27,7 +27,7 @@
  * | | | field `Alignment` | double, 1 | mean length of the views' shifts, in pixels; 0 where they were not shifted |
  * | | | field `RepairedPixels` | 64-bit unsigned, 1 | pixels of the silhouettes that were changed: filled, or erased as salt |
  * | | | field `MovedToMiddle` | 64-bit unsigned, 1 | points moved to the middle of their edge against a self-intersection |
- * | output 1 | vtkPolyData, triangles | cells `HullId` | int, 1 | the local hulls, each a closed convex part |
+ * | output 1 | vtkPolyData, triangles | cells `HullId` | int, 1 | the local hulls, each a closed convex part: in Robust mode of the input surface, before any correction and with islands kept (ThinHulls' are not among them), in Thesis mode those that the surface is made of |
  *
  * The input surface's field data pass through: `IntersectionOctants`, `LostNoCorner`, `LostAllCorners`,
  * `Vertices` and `Faces` are those of the marching-cubes surface.
@@ -55,7 +55,7 @@
  * all are: with its message, or, where its inputs failed, with one that names it, and empty outputs.
  *
  * Limits: an empty octree gives an empty surface without a message. Errors: octree and views that do not
- * belong together; a surface with cells other than triangles; a parameter out of range; single precision too
+ * belong together; a surface with cells other than triangles; a parameter that mode and outputs asked for use, out of range; single precision too
  * coarse for the depth.
  *
  * AbortExecute is honoured: the output is then empty, without an error. VTK does not run an aborted or failed

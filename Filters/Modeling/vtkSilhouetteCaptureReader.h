@@ -31,8 +31,8 @@
  * Cost and memory: the images'. All views are given to every piece; the cameras to the first.
  *
  * Limits: no lens distortion; no Exif rotation, of which a warning tells; files that change are not noticed: call
- * Modified(). Warnings, output made: images and masks that no view finds, data that are damaged but were read. Errors
- * (message naming the file, empty outputs): no or several camera files, a line that is not understood, a
+ * Modified(). Warnings, output made: images that no view finds, masks that none finds where a view has none, data that are damaged but were read. Errors
+ * (message naming the file, empty outputs): no camera file (`projections.txt` comes first), several `*_par.txt` without it, a line that is not understood, a
  * missing or unreadable image, a mask of another size than its photograph. AbortExecute is honoured: the
  * outputs are then empty, without an error; VTK does not run an aborted or failed filter again by itself:
  * call Modified() to ask for it.

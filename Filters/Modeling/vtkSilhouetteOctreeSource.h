@@ -164,8 +164,8 @@ public:
   ///@{
   /**
    * Whether to look if the octree covers the silhouettes, and where parts of them are left out, because they are thinner than
-   * the noise and were cut (what noise takes off all round is left to the surface), to carve with the least tolerance that covers them: background votes from
-   * BackgroundVotes up to a tenth of the views, and if these do not do it, silhouettes dilated by up to half
+   * the noise and were cut (what noise takes off all round is left to the surface), to carve with the least tolerance that leaves at most 0.1 % of them in lost parts: background votes from
+   * BackgroundVotes up to a tenth of the views (none of fewer than ten), and if these do not do it, silhouettes dilated by up to half
    * an octant besides. Default off. On, the octree's field `BackgroundVotes` says what was taken: a
    * vtkVotingMarchingCubes further down needs the share that this leaves, (views - votes) / views. Clean
    * silhouettes are carved as with off, with one measure more; others take three to ten carves.

@@ -37,4 +37,24 @@ inline void fill(BrickField& field, const std::function<double(const LatticePoin
   }
 }
 
+/** Those of some cells all of whose corners have values, none of them a positive one. */
+inline std::vector<std::uint64_t> cellsOutside(const BrickField& field, const std::vector<std::uint64_t>& cells)
+{
+  std::vector<std::uint64_t> outside;
+  for (const std::uint64_t cell : cells)
+  {
+    bool isOutside = true;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const std::ptrdiff_t at = field.find(mortonCode(fromMorton(cell) + cornerOffset(corner)));
+      isOutside = isOutside && at >= 0 && field.values()[std::size_t(at)] <= 0.0f;
+    }
+    if (isOutside)
+    {
+      outside.push_back(cell);
+    }
+  }
+  return outside;
+}
+
 } // namespace silhouette::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldRaising.h"
 
+#include "BrickTestFields.h"
 #include "CarvingTestCaptures.h"
 #include "CornerShell.h"
 
@@ -8,8 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
+#include <set>
 #include <vector>
 
 using namespace silhouette;
@@ -43,24 +44,7 @@ struct Scene
     }
   }
 
-  std::vector<std::uint64_t> lost(const BrickField& by) const
-  {
-    std::vector<std::uint64_t> cells;
-    for (const std::uint64_t cell : this->survivors)
-    {
-      bool any = false;
-      for (int corner = 0; corner < 8; ++corner)
-      {
-        const std::ptrdiff_t at = by.find(mortonCode(fromMorton(cell) + cornerOffset(corner)));
-        any = any || at < 0 || by.values()[std::size_t(at)] > 0.0f;
-      }
-      if (!any)
-      {
-        cells.push_back(cell);
-      }
-    }
-    return cells;
-  }
+  std::vector<std::uint64_t> lost(const BrickField& by) const { return cellsOutside(by, this->survivors); }
 
   /** The least but `votes` of the views' distances. */
   double bound(const LatticePoint& p, int votes) const
@@ -92,7 +76,7 @@ public:
     {
       for (int corner = 0; corner < 8; ++corner)
       {
-        this->Corners[mortonCode(fromMorton(cell) + cornerOffset(corner))] = true;
+        this->Corners.insert(mortonCode(fromMorton(cell) + cornerOffset(corner)));
       }
     }
     double sum = 0.0;
@@ -110,10 +94,10 @@ public:
 
   double at(const LatticePoint& p) const
   {
+    const int side = int(this->Kernel.size());
     double sum = 0.0;
-    for (int n = 0; n < int(std::pow(this->Kernel.size(), 3)); ++n)
+    for (int n = 0; n < side * side * side; ++n)
     {
-      const int side = int(this->Kernel.size());
       const int x = n % side, y = n / side % side, z = n / side / side;
       const LatticePoint q = p + LatticePoint{ x - this->Reach, y - this->Reach, z - this->Reach };
       if (std::min({ q.i, q.j, q.k }) >= 0 && this->Corners.count(mortonCode(q)) != 0)
@@ -129,7 +113,7 @@ private:
   int Reach;
   double Alone;
   std::vector<double> Kernel;
-  std::map<std::uint64_t, bool> Corners;
+  std::set<std::uint64_t> Corners;
 };
 
 } // namespace

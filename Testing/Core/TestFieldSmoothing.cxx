@@ -272,7 +272,7 @@ TEST(FieldSmoothing, ABlurIsAGaussianAlone)
     EXPECT_GE(double(kernel.size() - 1), 3.0 * sigma);
     BrickField field(lattice, allCells(lattice), 0, execution);
     fill(field, [&](const LatticePoint& p) { return p == middle ? 1000.0 : 0.0; });
-    FieldSmoother().blur(field, sigma, execution);
+    FieldSmoother().blur(field, kernel, execution);
     for (std::size_t n = 0; n < field.size(); ++n)
     {
       const LatticePoint p = fromMorton(field.code(n));

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <random>
 
 using namespace silhouette;
@@ -168,4 +170,23 @@ TEST(SelfIntersections, CancelAndProgress)
   selfIntersectionsWith(mesh, { 1, 2, 3 }, part);
   EXPECT_TRUE(part.Monotone);
   EXPECT_EQ(part.Last, 1.0);
+}
+
+/** Where each triangle's box meets all others' the work is their square: whoever wants to stop is asked after a small part of it. */
+TEST(SelfIntersections, AskOftenWhetherToStopWhereAllBoxesOverlap)
+{
+  Mesh fan;
+  constexpr int count = 4000;
+  fan.points.emplace_back(0.0, 0.0, 1.0);
+  for (int n = 0; n < count; ++n)
+  {
+    const double angle = 2.0 * 3.14159265358979 * n / count;
+    fan.points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    fan.triangles.push_back({ 0, 1 + n, 1 + (n + 1) % count });
+  }
+  StoppedAt never(1 << 30);
+  EXPECT_TRUE(selfIntersections(fan, never).empty());
+  EXPECT_GT(never.asked(), 10);
+  StoppedAt early(5);
+  EXPECT_THROW(selfIntersections(fan, early), Cancelled);
 }

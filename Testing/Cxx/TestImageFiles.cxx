@@ -132,6 +132,40 @@ TEST_F(ImageFiles, ReadsEveryImageFormat)
   }
 }
 
+TEST_F(ImageFiles, RefusesTiffFilesThatCannotHoldTheirSize)
+{
+  fs::remove_all(this->Folder / "masks");
+  fs::create_directories(this->Folder / "masks");
+  this->Reader->SetViews("2");
+  const fs::path file = this->Folder / "masks/disc2.tif";
+  const auto write = [&](std::uint16_t width)
+  {
+    const auto bytes = [](std::uint32_t value, int count)
+    {
+      std::string text;
+      for (int n = 0; n < count; ++n)
+      {
+        text += char(value >> 8 * n & 255);
+      }
+      return text;
+    };
+    // Of 100 rows, uncompressed, 8 bits a pixel, in one strip after the entries.
+    const std::uint32_t entries[][3] = {{256, 3, width}, {257, 3, 100}, {258, 3, 8}, {259, 3, 1}, {262, 3, 1}, {273, 4, 122}, {277, 3, 1}, {278, 3, 100}, {279, 4, 10000}};
+    std::string text = std::string("II*\0", 4) + bytes(8, 4) + bytes(9, 2);
+    for (const auto& [tag, type, value] : entries)
+    {
+      text += bytes(tag, 2) + bytes(type, 2) + bytes(1, 4) + bytes(value, 4);
+    }
+    std::ofstream(file, std::ios::binary) << text + bytes(0, 4) + std::string(10000, char(255));
+  };
+  write(100);
+  this->Reader->Modified();
+  this->Reader->Update();
+  ASSERT_EQ(this->Reader->GetOutput()->GetNumberOfPartitionedDataSets(), 1u);
+  write(60000); // pixels for 6 MB
+  expectError(this->Reader, {"cannot read image", "disc2.tif", "its size makes no sense"});
+}
+
 TEST_F(ImageFiles, RefusesPngFilesThatLibpngWouldGiveUp)
 {
   fs::remove_all(this->Folder / "masks");

@@ -122,7 +122,7 @@ def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", 
 
     Raises TypeError where an argument is of another type, ValueError with its name and value where it is out of
     range, before any work and for any surface; and RuntimeError with the filter's message where the views give no
-    object: nothing survives the carving (the message names the view), they do not bound it, or a projection is of
+    object: nothing survives the carving (the message names views without which something would be left), they do not bound it, or a projection is of
     rank below 3. What is doubtful but not fatal comes as a RuntimeWarning.
 
         >>> points, triangles = reconstruct(masks, projections, depth=7)
