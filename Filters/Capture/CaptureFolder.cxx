@@ -147,14 +147,20 @@ std::vector<int> goodSilhouettes(const fs::path& list, const fs::path& cameraFil
   return std::vector<int>(good.begin(), good.end());
 }
 
-std::vector<int> usedViews(const CaptureDescription& capture, const CameraFile& cameras,
-                           const CaptureOptions& options)
+std::vector<std::string> namesOf(const CameraFile& cameras)
 {
   std::vector<std::string> names;
   for (const NamedProjection& view : cameras.views)
   {
     names.push_back(view.name);
   }
+  return names;
+}
+
+std::vector<int> usedViews(const CaptureDescription& capture, const CameraFile& cameras,
+                           const CaptureOptions& options)
+{
+  const std::vector<std::string> names = namesOf(cameras);
   if (options.views.empty())
   {
     const fs::path list = findGoodSilhouettes(capture.folder, capture.cameraFile);
@@ -304,9 +310,8 @@ void warnOfUnusedMasks(CaptureDescription& capture, const CameraFile& cameras)
   }
 }
 
-} // namespace
-
-CaptureDescription describeCapture(const fs::path& folderOrCameraFile, const CaptureOptions& options)
+/** Folder and camera file alone. */
+CaptureDescription locateCapture(const fs::path& folderOrCameraFile)
 {
   CaptureDescription capture;
   if (isFolder(folderOrCameraFile))
@@ -323,6 +328,19 @@ CaptureDescription describeCapture(const fs::path& folderOrCameraFile, const Cap
   {
     throw InvalidInput(folderOrCameraFile.string() + ": there is no such folder or camera file");
   }
+  return capture;
+}
+
+} // namespace
+
+std::vector<std::string> captureViewNames(const fs::path& folderOrCameraFile)
+{
+  return namesOf(readCameraFile(locateCapture(folderOrCameraFile).cameraFile));
+}
+
+CaptureDescription describeCapture(const fs::path& folderOrCameraFile, const CaptureOptions& options)
+{
+  CaptureDescription capture = locateCapture(folderOrCameraFile);
   const CameraFile cameras = readCameraFile(capture.cameraFile);
   capture.format = formatName(cameras.format);
   capture.freeSign = cameras.format == CameraFormat::ProjectionList;

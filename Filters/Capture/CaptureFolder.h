@@ -50,6 +50,9 @@ struct CaptureDescription
   std::vector<std::string> warnings;
 };
 
+/** Names of all views of the camera file, in its order. Throws InvalidInput as describeCapture(), where it finds or reads no camera file. */
+std::vector<std::string> captureViewNames(const std::filesystem::path& folderOrCameraFile);
+
 /**
  * Describe the capture in a folder, or that of a camera file. Throws InvalidInput, naming file, line or view,
  * and value: no or several camera files; whatever CameraFiles.h throws; a selection that fits no view; and of

@@ -48,6 +48,16 @@ class Wrong(ProgramTest):
         for option in (["--mode", "thesis"], ["--mode", "robust"], ["--no-repair"], ["--drop-islands"], ["--no-tunnels"]):
             for surface in ("voting", "marching-cubes"):
                 self.wrong_reconstruct([option[0], "--surface " + surface, "local-hull"], "--surface", surface, *option)
+        for option in ("--no-repair", "--no-alignment", "--no-correction", "--no-thin-hulls", "--no-handles", "--no-tunnels"):
+            self.wrong_reconstruct([option, "--mode thesis", "robust"], "--mode", "thesis", option)
+        for option in (["--dilate", 1], ["--background-votes", 0], ["--vote-share", 1], ["--votes", "faithful"],
+                       ["--surface", "marching-cubes"]):
+            self.wrong_reconstruct(["--carving", "tolerant", option[0]], "--carving", "tolerant", *option)
+        self.wrong_reconstruct(["--background-votes", "3 contradicts --votes faithful"], "--votes", "faithful",
+                               "--background-votes", 3)
+        self.good("reconstruct", self.capture, "-o", self.folder / "x.ply", "--depth", 3, "--carving", "tolerant", "--dilate", 0)
+        self.good("reconstruct", self.capture, "-o", self.folder / "x.ply", "--depth", 3, "--mode", "thesis", "--drop-islands")
+        (self.folder / "x.ply").unlink()
         self.wrong(["--sample-spacing", "--truth"], "evaluate", self.capture / "truth.ply", "--capture", self.capture,
                    "--sample-spacing", 0.1)
 

@@ -4,7 +4,7 @@ import os
 import unittest
 
 import program
-from program import FILES, PROCESSING, ProgramTest
+from program import ARGUMENTS, FILES, PROCESSING, ProgramTest
 
 
 class Errors(ProgramTest):
@@ -190,11 +190,24 @@ class Errors(ProgramTest):
     def test_one_view_without_bounds(self):
         self.fails(PROCESSING, ["automatic bounds", "1 view", "give the bounds"], self.capture, "--views", 0)
 
-    def test_too_many_background_votes(self):
-        self.fails(PROCESSING, ["12 background votes", "0 to 11"], self.capture, "--background-votes", 12)
+    def test_votes_that_do_not_fit_the_capture(self):
+        for votes in (12, 65534):
+            self.fails(ARGUMENTS, ["--background-votes", f"{votes} of 12 views", "0 to 11"], self.capture, "--background-votes", votes)
+        self.fails(ARGUMENTS, ["--background-votes", "3 of 3 views", "0 to 2"], self.capture, "--views", "0-2", "--background-votes", 3)
+        for surface in ("local-hull", "voting"):
+            self.fails(ARGUMENTS, ["--background-votes", "3 contradicts --vote-share 0.9", "leaves 1 of 12 views"], self.capture,
+                       "--surface", surface, "--vote-share", 0.9, "--background-votes", 3)
+        self.fails(ARGUMENTS, ["--background-votes", "0 contradicts --vote-share 0.75", "leaves 3"], self.capture,
+                   "--vote-share", 0.75, "--background-votes", 0)
 
     def test_selection(self):
-        self.fails(FILES, ["99"], self.capture, "--views", "99")
+        for selection, *words in (("99", "0 to 11"), ("0-17", "0 to 11"), ("3-1", "backwards"),
+                                  ("view_99.png", "name of a view", "0 to 11")):
+            words += ["--views: ", f"'{selection}'"]
+            self.fails(ARGUMENTS, words, self.capture, "--views", selection)
+            self.fails(ARGUMENTS, words, self.capture / "projections.txt", "--views", selection)
+            self.bad(ARGUMENTS, words, "evaluate", self.capture / "truth.ply", "--capture", self.capture, "--views", selection)
+        self.fails(FILES, ["nowhere", "no such folder"], self.folder / "nowhere", "--views", "99")
 
     def test_float_too_coarse(self):
         capture = self.copy_of_capture()

@@ -2,8 +2,10 @@
 #include "CaptureOptions.h"
 
 #include "Arguments.h"
+#include "CaptureFolder.h"
 #include "Error.h"
 #include "ExtractionOptions.h"
+#include "ViewSelection.h"
 
 #include "vtkSilhouetteCaptureReader.h"
 #include "vtkSilhouetteExtractor.h"
@@ -158,8 +160,30 @@ bool CaptureOptions::dilates() const
     [operation](const auto& one) { return one.first == operation && one.second > 0; });
 }
 
+void CaptureOptions::checkViews(const std::string& capture) const
+{
+  std::vector<std::string> names;
+  try
+  {
+    names = captureViewNames(capture);
+  }
+  catch (const Error&)
+  {
+    return; // its reader will say
+  }
+  try
+  {
+    selectViews(this->Views, names);
+  }
+  catch (const InvalidInput& error)
+  {
+    throw CLI::ValidationError("--" + std::string(error.what()));
+  }
+}
+
 void CaptureOptions::configure(const std::string& capture, vtkSilhouetteCaptureReader* reader) const
 {
+  this->checkViews(capture);
   reader->SetFileName(capture.c_str());
   reader->SetViews(this->Views.empty() ? nullptr : this->Views.c_str());
   reader->SetPixelFamily(this->PixelFamily == "corner" ? vtkSilhouetteCaptureReader::CORNER

@@ -33,6 +33,7 @@ public:
   /** Does the user dilate silhouettes? */
   bool dilates() const;
 
+  /** Throws CLI::ValidationError where the views asked for are not the capture's. */
   void configure(const std::string& capture, vtkSilhouetteCaptureReader* reader) const;
   void configure(vtkSilhouetteExtractor* extractor) const;
 
@@ -40,6 +41,7 @@ private:
   void addCriteria(CLI::App& command);
   void addClean(CLI::App& command);
   void checkReach() const;
+  void checkViews(const std::string& capture) const;
   bool hasCriteria() const;
 
   CLI::App* Command = nullptr;

@@ -26,7 +26,7 @@ public:
   /** Checks what the parser could not. Throws CLI::ValidationError. */
   virtual void finish() = 0;
 
-  /** Throws ProgramError or Interrupted. */
+  /** Throws ProgramError or Interrupted; CLI::ValidationError where an argument does not fit the capture. */
   virtual void run() = 0;
 
 protected:

@@ -14,7 +14,7 @@ enum ExitCode
 {
   Success = 0,
   ProcessingFailed = 1, ///< the data do not allow a result: bad silhouettes or cameras, nothing survives
-  WrongArguments = 2,
+  WrongArguments = 2,   ///< by themselves, or for this capture
   FileFailed = 3, ///< a file, the capture's included, cannot be read, understood or written
   Stopped = 130   ///< interrupted: 128 and the number of SIGINT, as shells have it
 };
@@ -22,7 +22,7 @@ enum ExitCode
 constexpr const char* ExitCodesHelp = "Exit codes:\n"
                                       "  0    done\n"
                                       "  1    the data allow no result: bad silhouettes or cameras, nothing survives\n"
-                                      "  2    wrong arguments\n"
+                                      "  2    wrong arguments, by themselves or for this capture\n"
                                       "  3    a file or the capture cannot be read, understood or written\n"
                                       "  130  interrupted; no partial file is left\n";
 

@@ -36,6 +36,16 @@ std::string footer()
 
 } // namespace
 
+std::string ReconstructOptions::carvingSettledBy() const
+{
+  return this->voteShare ? "--vote-share"
+    : this->backgroundVotes ? "--background-votes"
+    : this->votes == "faithful" ? "--votes faithful"
+    : this->surface == "marching-cubes" ? "--surface marching-cubes"
+    : this->silhouettes.dilates() ? "--dilate"
+    : "";
+}
+
 Reconstruct::Reconstruct(CLI::App& program)
 {
   this->App = addCommand(program, "reconstruct", Description);
@@ -104,7 +114,7 @@ void Reconstruct::addOctree()
                                                      "strict carving cuts parts thinner than the noise, so that they are "
                                                      "lost in all silhouettes; strict, without looking. "
                                                      "--background-votes, --vote-share, --dilate, --votes faithful and "
-                                                     "--surface marching-cubes settle it, too")
+                                                     "--surface marching-cubes settle it, too; they exclude an explicit tolerant")
     ->type_name("KIND")
     ->check(CLI::IsMember({ "tolerant", "strict" }))
     ->capture_default_str()
@@ -116,7 +126,7 @@ void Reconstruct::addLocalHulls()
   const char* const group = HullGroup;
   this->App
     ->add_option("--mode", this->Options.mode, "robust, labels of the views corrected by what they agree on; thesis, one "
-                                               "convex hull for each chain of slices, combined")
+                                               "convex hull for each chain of slices, combined; it has no correction to switch off")
     ->type_name("MODE")
     ->check(CLI::IsMember({ "robust", "thesis" }))
     ->capture_default_str()
@@ -133,7 +143,7 @@ void Reconstruct::addLocalHulls()
     ->check(inRange(0.0, 1.0))
     ->group(group);
   const auto addSwitch = [&](const char* name, bool& option, const char* help)
-  { this->App->add_flag_callback(name, [&option] { option = false; }, help)->group(group); };
+  { this->Switches.push_back(this->App->add_flag_callback(name, [&option] { option = false; }, help)->group(group)); };
   addSwitch("--no-repair", this->Options.repair, "Leave silhouettes as they are, where a single view cuts deep and wide "
                                                  "into the object too");
   addSwitch("--no-alignment", this->Options.alignment, "Leave views where their cameras say they are");
@@ -165,7 +175,7 @@ void Reconstruct::addSurface()
     ->group(group);
   this->App
     ->add_option("--background-votes", this->Options.backgroundVotes, "Views that may call an octant background "
-                                                                      "without its being carved (default: what "
+                                                                      "without its being carved, fewer than all (default: what "
                                                                       "--vote-share leaves, else what --carving settles)")
     ->type_name("K")
     ->check(inRange(0, 65534, true))
@@ -248,6 +258,15 @@ void Reconstruct::finish()
         ? "local hulls are decided over the whole; pieces need --surface voting or marching-cubes"
         : "--octree writes the whole octree, which pieces never hold");
   }
+  this->checkMeaning();
+  checkExtension("--metrics", options.metrics, ".json");
+  checkExtension("--image", options.image, ".png");
+  checkExtension("--octree", options.octree, ".htg");
+}
+
+void Reconstruct::checkMeaning() const
+{
+  const ReconstructOptions& options = this->Options;
   for (const CLI::Option* option : this->App->get_options([](const CLI::Option* one) { return one->get_group() == HullGroup; }))
   {
     if (option->count() > 0 && options.surface != "local-hull")
@@ -255,9 +274,23 @@ void Reconstruct::finish()
       throw CLI::ValidationError(option->get_name(), "means nothing to --surface " + options.surface + "; it is for local-hull");
     }
   }
-  checkExtension("--metrics", options.metrics, ".json");
-  checkExtension("--image", options.image, ".png");
-  checkExtension("--octree", options.octree, ".htg");
+  for (const CLI::Option* option : this->Switches)
+  {
+    if (option->count() > 0 && options.mode == "thesis")
+    {
+      throw CLI::ValidationError(option->get_name(), "means nothing to --mode thesis, which corrects nothing; it is for robust");
+    }
+  }
+  if (options.votes == "faithful" && options.backgroundVotes.value_or(0) > 0)
+  {
+    throw CLI::ValidationError("--background-votes", std::to_string(*options.backgroundVotes) +
+        " contradicts --votes faithful, whose octree is strict: it is 0");
+  }
+  const std::string settledBy = options.carvingSettledBy();
+  if (this->App->get_option("--carving")->count() > 0 && options.carving == "tolerant" && !settledBy.empty())
+  {
+    throw CLI::ValidationError("--carving", "tolerant means nothing with " + settledBy + ", which settles what is tolerated");
+  }
 }
 
 void Reconstruct::run()

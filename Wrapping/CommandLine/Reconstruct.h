@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace silhouette::program
 {
@@ -47,6 +48,9 @@ struct ReconstructOptions
   int pieces = 1;
   int threads = 0;
   bool quiet = false;
+
+  /** The option that leaves no tolerance of the carving to be found, as on the command line; empty where none does. */
+  std::string carvingSettledBy() const;
 };
 
 class Reconstruct : public Command
@@ -62,8 +66,11 @@ private:
   void addSurface();
   void addLocalHulls();
   void addRest();
+  /** Options that mean nothing together. */
+  void checkMeaning() const;
 
   ReconstructOptions Options;
+  std::vector<CLI::Option*> Switches; ///< of the robust mode's corrections
 };
 
 } // namespace silhouette::program

@@ -8,6 +8,7 @@
 #include "OutputFiles.h"
 #include "Preview.h"
 #include "Reconstruct.h"
+#include "VotingMarchingCubes.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
@@ -25,7 +26,6 @@
 #include "vtkXMLHyperTreeGridWriter.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace silhouette::program
@@ -121,17 +121,21 @@ void Reconstruction::setVotes()
 {
   const bool consistent = this->Options.votes == "consistent";
   const int views = static_cast<int>(this->Extractor->GetOutput()->GetNumberOfPartitionedDataSets());
-  int background = this->Options.backgroundVotes.value_or(0);
-  if (this->Options.voteShare)
+  this->Share = this->Options.voteShare.value_or(1.0);
+  const int left = views - requiredInsideVotes(this->Share, views);
+  const int background = this->Options.backgroundVotes.value_or(consistent ? left : 0);
+  if (background >= views)
   {
-    this->Share = *this->Options.voteShare;
-    if (consistent && !this->Options.backgroundVotes)
-    {
-      const int needed = static_cast<int>(std::ceil(this->Share * views - 1e-9));
-      background = views - std::max(1, needed);
-    }
+    throw CLI::ValidationError("--background-votes", std::to_string(background) + " of " + std::to_string(views) +
+        " views is out of range: 0 to " + std::to_string(views - 1));
   }
-  else if (consistent)
+  if (this->Options.voteShare && consistent && background != left)
+  {
+    throw CLI::ValidationError("--background-votes", std::to_string(background) + " contradicts --vote-share " +
+        numberText(this->Share) + ", which leaves " + std::to_string(left) + " of " + std::to_string(views) +
+        " views; one of the two is enough");
+  }
+  if (!this->Options.voteShare && consistent)
   {
     this->setShare(views, background);
   }
@@ -145,10 +149,7 @@ void Reconstruction::setVotes()
 
 bool Reconstruction::carvesTolerantly() const
 {
-  const ReconstructOptions& options = this->Options;
-  const bool settled = options.voteShare || options.backgroundVotes || options.votes != "consistent" ||
-    options.surface == "marching-cubes" || options.silhouettes.dilates();
-  return options.carving == "tolerant" && !settled;
+  return this->Options.carving == "tolerant" && this->Options.carvingSettledBy().empty();
 }
 
 void Reconstruction::setShare(int views, int backgroundVotes)

@@ -35,13 +35,14 @@ public:
   Reconstruction(const Reconstruction&) = delete;
   Reconstruction& operator=(const Reconstruction&) = delete;
 
-  /** Throws ProgramError or Interrupted; files that are finished by then stay, and are whole. */
+  /** Throws what Command::run() does; files that are finished by then stay, and are whole. */
   void run();
 
 private:
   void checkOutputs() const;
   void readCapture();
   void connect();
+  /** Throws CLI::ValidationError where votes and share do not fit the number of views. */
   void setVotes();
   void carve();
   /** Is the carving's tolerance to be found? */
