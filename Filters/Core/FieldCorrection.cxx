@@ -11,6 +11,7 @@
 #include "FirstTouch.h"
 #include "LeastDistances.h"
 #include "NearViews.h"
+#include "ParameterRange.h"
 #include "SurfaceCells.h"
 #include "ViewAgreement.h"
 #include "ViewAlignment.h"
@@ -42,24 +43,17 @@ constexpr int RefinedMargin = 3;         ///< octants that the field is given ar
 
 void check(const FieldCorrectionOptions& options)
 {
-  const auto require = [](bool fine, const char* name, double value)
-  {
-    if (!fine)
-    {
-      throw InvalidInput(std::string(name) + " " + std::to_string(value) + " is out of range");
-    }
-  };
-  require(options.smallestDeficit >= 0.0, "smallest deficit", options.smallestDeficit);
-  require(options.smallestShift >= 0.0, "smallest shift", options.smallestShift);
-  require(options.shiftNoise >= 0.0, "shift noise", options.shiftNoise);
-  require(options.alignments >= 1 && options.alignments <= MostAlignments, "number of alignments", options.alignments);
-  require(options.modelDissent >= 0.0 && options.modelDissent <= 1.0, "model dissent", options.modelDissent);
-  require(options.smoothing >= 0.0, "smoothing", options.smoothing);
-  require(options.greatestSmoothing >= 0.0, "greatest smoothing", options.greatestSmoothing);
-  require(options.gentleness >= 0.0, "gentleness", options.gentleness);
-  require(options.contourReach > 0.0, "contour reach", options.contourReach);
-  require(options.hullConvexity >= 0.0, "hull convexity", options.hullConvexity);
-  require(options.raiseWidth >= 0.0 && options.raiseWidth <= WidestRaising, "raise width", options.raiseWidth);
+  requireRange("smallest deficit", options.smallestDeficit, 0.0);
+  requireRange("smallest shift", options.smallestShift, 0.0);
+  requireRange("shift noise", options.shiftNoise, 0.0);
+  requireRange("alignments", options.alignments, 1, MostAlignments);
+  requireRange("model dissent", options.modelDissent, 0.0, 1.0);
+  requireRange("smoothing", options.smoothing, 0.0);
+  requireRange("greatest smoothing", options.greatestSmoothing, 0.0);
+  requireRange("gentleness", options.gentleness, 0.0);
+  requireAboveZero("contour reach", options.contourReach);
+  requireRange("hull convexity", options.hullConvexity, 0.0);
+  requireRange("raise width", options.raiseWidth, 0.0, WidestRaising);
 }
 
 /** Lengths that go with the lattice, in its octants. */

@@ -6,6 +6,7 @@
 #include "Error.h"
 #include "IndicesWhere.h"
 #include "LabelCache.h"
+#include "ParameterRange.h"
 #include "ShellPaths.h"
 #include "SimplePoint.h"
 
@@ -21,14 +22,8 @@ namespace
 
 void check(const HandleJoiningOptions& options)
 {
-  if (!(options.reach >= 0.0))
-  {
-    throw InvalidInput("handle reach " + std::to_string(options.reach) + " octants an octant: at least 0 is needed");
-  }
-  if (!(options.loop >= 0.0))
-  {
-    throw InvalidInput("handle loop " + std::to_string(options.loop) + " of the lattice's side: at least 0 is needed");
-  }
+  requireRange("handle reach", options.reach, 0.0);
+  requireRange("loop length", options.loop, 0.0);
 }
 
 /** The points of the 27 around a corner that it is connected with where both are inside, a bit each. */

@@ -2,6 +2,7 @@
 #include "HullChains.h"
 
 #include "ConvexHull.h"
+#include "ParameterRange.h"
 
 #include <Eigen/Geometry>
 
@@ -422,14 +423,8 @@ bool holdsOutside(const Mesh& hull, const SolidRows& solid, const Lattice& latti
 std::vector<LocalHull> hullChains(SlicedVolume volume, const std::vector<Eigen::Vector3d>& points,
   const SolidRows& solid, const Lattice& lattice, const ChainOptions& options, Execution& execution)
 {
-  if (!(options.tolerance >= 0.0))
-  {
-    throw InvalidInput("chain tolerance " + std::to_string(options.tolerance) + " octants: at least 0 is needed");
-  }
-  if (!(options.overlap > 0.0 && options.overlap <= 1.0))
-  {
-    throw InvalidInput("chain overlap " + std::to_string(options.overlap) + " is outside (0, 1]");
-  }
+  requireRange("chain tolerance", options.tolerance, 0.0);
+  requireAboveZero("chain overlap", options.overlap, 1.0);
   const SlicePoints slicePoints(volume, points);
   Phase refining(execution, 0.0, 0.4);
   refineParts(volume, slicePoints, points, solid, lattice, options.tolerance, refining);

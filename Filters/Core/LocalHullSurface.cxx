@@ -8,6 +8,7 @@
 #include "LatticeRegions.h"
 #include "LatticeSurface.h"
 #include "MeshComponents.h"
+#include "ParameterRange.h"
 #include "RobustLabels.h"
 #include "SurvivorBridges.h"
 #include "SurvivorCovering.h"
@@ -30,18 +31,9 @@ void check(const Octree& octree, const PreparedViews* views, const LocalHullOpti
   {
     throw InvalidInput("the octree was carved from other views, or with another policy outside the image");
   }
-  if (!(options.coverOffset >= CrossingMargin && options.coverOffset <= 1.0 - CrossingMargin))
-  {
-    throw InvalidInput("cover offset " + std::to_string(options.coverOffset) + " octants is outside 0.01 to 0.99");
-  }
-  if (!(options.islandShare >= 0.0 && options.islandShare <= 1.0))
-  {
-    throw InvalidInput("island share " + std::to_string(options.islandShare) + " is outside 0 to 1");
-  }
-  if (options.bridgeGap < 0)
-  {
-    throw InvalidInput("bridge gap " + std::to_string(options.bridgeGap) + " octants: at least 0 is needed");
-  }
+  requireRange("cover offset", options.coverOffset, CrossingMargin, 1.0 - CrossingMargin);
+  requireRange("island share", options.islandShare, 0.0, 1.0);
+  requireRange("bridge gap", options.bridgeGap, 0);
   checkThinHullOptions(options.thin); // whether anything is thin or not
 }
 

@@ -2,6 +2,7 @@
 #include "LocalHulls.h"
 
 #include "ConvexHull.h"
+#include "ParameterRange.h"
 #include "UnionFind.h"
 
 #include <Eigen/Geometry>
@@ -266,14 +267,8 @@ private:
 std::vector<LocalHull> localHulls(
   const Mesh& surface, const LatticeLabels& labels, const LocalHullsOptions& options, Execution& execution)
 {
-  if (options.seedBlock < 1)
-  {
-    throw InvalidInput("seed block " + std::to_string(options.seedBlock) + " octants: at least 1 is needed");
-  }
-  if (!(options.tolerance >= 0.0))
-  {
-    throw InvalidInput("hull tolerance " + std::to_string(options.tolerance) + " octants: at least 0 is needed");
-  }
+  requireRange("seed block", options.seedBlock, 1);
+  requireRange("hull tolerance", options.tolerance, 0.0);
   std::vector<Part> parts = makeSeeds(surface, labels.octree().lattice, options.seedBlock);
   execution.forRanges(parts.size(), 16,
     [&](std::size_t first, std::size_t last)

@@ -3,6 +3,7 @@
 
 #include "BlobFilling.h"
 #include "ImageSquares.h"
+#include "ParameterRange.h"
 #include "PointComponents.h"
 #include "RejectedCorners.h"
 #include "SilhouetteDissent.h"
@@ -21,23 +22,14 @@ constexpr double FewViewsChord = 3.0;  ///< over the number of views: extents th
 constexpr double FewViewsDepth = 85.0; ///< over their square: slivers between neighbouring views are that deep
 constexpr double WrongViewChord = 0.7; ///< of the chord asked for, in a view that has a blob
 
-void requireRange(const char* what, double value, double least, double greatest)
-{
-  if (!(value >= least && value <= greatest))
-  {
-    throw InvalidInput(std::string(what) + " " + std::to_string(value) + " is outside " +
-                       std::to_string(least) + " to " + std::to_string(greatest));
-  }
-}
-
 void check(const SilhouetteRepairOptions& options)
 {
-  constexpr double largest = 1e9; // octants; whatever is not finite is beyond it
-  requireRange("speckle area", options.speckleArea, 0.0, largest);
+  constexpr double most = 1e9; // octants; beyond it products may be infinite
+  requireRange("speckle area", options.speckleArea, 0.0, most);
   requireRange("speckle share", options.speckleShare, 0.0, 1.0);
-  requireRange("blob depth", options.blobDepth, 0.0, largest);
+  requireRange("blob depth", options.blobDepth, 0.0, most);
   requireRange("blob chord", options.blobChord, 0.0, 1.0);
-  requireRange("blob corners", options.blobCorners, 1.0, largest);
+  requireRange("blob corners", options.blobCorners, 1);
 }
 
 /** Is no object within `depth` octants of the corner, in the view that rejects it? */

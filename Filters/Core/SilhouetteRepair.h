@@ -19,7 +19,7 @@ namespace silhouette
 struct SilhouetteRepairOptions
 {
   /**
-   * Squared octants, 0 or more: a region of background that the object encloses is a speckle if its area is
+   * Squared octants, 0 to 1e9: a region of background that the object encloses is a speckle if its area is
    * at most this, or a pixel; larger takes larger ones. Of object, only a few pixels that stand alone are
    * one.
    */
@@ -30,7 +30,7 @@ struct SilhouetteRepairOptions
    */
   double speckleShare = 1e-4;
   /**
-   * Octants, 0 or more: how deep in one view's background a corner lies that this view alone rejects; at least 85 over the
+   * Octants, 0 to 1e9: how deep in one view's background a corner lies that this view alone rejects; at least 85 over the
    * square of the number of views is asked for. Larger finds fewer blobs.
    */
   double blobDepth = 0.1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SliceRegions.h"
 
+#include "ParameterRange.h"
 #include "RowIntervals.h"
 #include "UnionFind.h"
 
@@ -152,14 +153,8 @@ bool better(const SlicedVolume& a, const SlicedVolume& b)
 SlicedVolume sliceVolume(const Octree& octree, const std::vector<std::uint64_t>& furtherCells,
   const SliceOptions& options, Execution& execution)
 {
-  if (options.axis < -1 || options.axis > 2)
-  {
-    throw InvalidInput("slice axis " + std::to_string(options.axis) + " is outside -1 to 2");
-  }
-  if (!(options.tolerance >= 0.0))
-  {
-    throw InvalidInput("slice tolerance " + std::to_string(options.tolerance) + " octants: at least 0 is needed");
-  }
+  requireRange("slice axis", options.axis, -1, 2);
+  requireRange("slice tolerance", options.tolerance, 0.0);
   if (options.axis >= 0)
   {
     return sliceAlong(octree, furtherCells, options.axis, options.tolerance, execution);

@@ -3,6 +3,7 @@
 
 #include "ChildNumbering.h"
 #include "LatticeRegions.h"
+#include "ParameterRange.h"
 
 #include <algorithm>
 #include <string>
@@ -83,10 +84,7 @@ void settle(Octree& octree, DroppedSurvivors& dropped, Execution& execution)
 
 Octree dropIslands(const Octree& octree, double share, DroppedSurvivors& dropped, Execution& execution)
 {
-  if (!(share >= 0.0 && share <= 1.0))
-  {
-    throw InvalidInput("island share " + std::to_string(share) + " is outside 0 to 1");
-  }
+  requireRange("island share", share, 0.0, 1.0);
   Octree kept = octree;
   if (share == 0.0 || octree.generations.empty())
   {

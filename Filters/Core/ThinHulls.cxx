@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ThinHulls.h"
 
+#include "ParameterRange.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -202,13 +204,10 @@ void checkThinHullOptions(const ThinHullOptions& options)
 {
   if (!(options.smallestRadius > 0.0 && options.smallestRadius <= options.largestRadius && options.largestRadius <= 1.0))
   {
-    throw InvalidInput("thin hulls of radius " + std::to_string(options.smallestRadius) + " to " +
-      std::to_string(options.largestRadius) + " octants: both have to be above 0 and at most 1, and in this order");
+    throw InvalidInput("thin hulls of radius " + numberText(options.smallestRadius) + " to " +
+      numberText(options.largestRadius) + " octants: both have to be above 0 and at most 1, and in this order");
   }
-  if (!(options.reach >= 0.0 && options.reach <= 1.0))
-  {
-    throw InvalidInput("thin hulls' reach " + std::to_string(options.reach) + " octants is outside 0 to 1");
-  }
+  requireRange("thin hulls' reach", options.reach, 0.0, 1.0);
 }
 
 NearestBall nearestBall(const ThinHull& hull, const Vector3& point)

@@ -4,6 +4,7 @@
 #include "CodeCursor.h"
 #include "Error.h"
 #include "NarrowOutside.h"
+#include "ParameterRange.h"
 #include "PointClusters.h"
 #include "SimplePoint.h"
 #include "UnionFind.h"
@@ -40,14 +41,8 @@ bool isWide(Part part)
 
 void check(const TunnelFillingOptions& options)
 {
-  if (options.width < 1 || options.width > GreatestWidth)
-  {
-    throw InvalidInput("tunnel width " + std::to_string(options.width) + " octants is outside 1 to 8");
-  }
-  if (!(options.loop >= 0.0))
-  {
-    throw InvalidInput("tunnel loop " + std::to_string(options.loop) + " of the lattice's side: at least 0 is needed");
-  }
+  requireRange("tunnel width", options.width, 1, GreatestWidth);
+  requireRange("loop length", options.loop, 0.0);
 }
 
 /** Parts of the lattice points: narrow ones become taken, all others stay. Those of different points may be changed at the same time. */

@@ -231,7 +231,7 @@ public:
   ///@{
   /**
    * RepairSilhouettes: the largest area of a speckle, a region of background that the object encloses; squared leaf
-   * octants, at least 0, default 0.5; a pixel is one in any case. Of object, regions of at most this area, a pixel in
+   * octants, 0 to 1e9, default 0.5; a pixel is one in any case. Of object, regions of at most this area, a pixel in
    * any case, and of 8 pixels at most are speckles where more than a pixel is between them and any other object. Larger
    * takes larger ones.
    */
@@ -252,7 +252,7 @@ public:
   ///@{
   /**
    * RepairSilhouettes: how deep in one view's background a corner lies that this view alone rejects; leaf
-   * octants, at least 0, default 0.1. At least 85 over the square of the number of views is asked for, whatever is set:
+   * octants, 0 to 1e9, default 0.1. At least 85 over the square of the number of views is asked for, whatever is set:
    * with fewer than 30 views more than the default. Larger finds fewer blobs.
    */
   vtkSetMacro(BlobDepth, double);

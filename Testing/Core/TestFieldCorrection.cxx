@@ -336,13 +336,16 @@ TEST(FieldCorrection, OptionsOutOfRangeAreErrorsThatNameTheValue)
   {
     Options options;
     options.*member = -1.5;
-    expectError(options, "-1.5");
+    const bool isShare = member == &Options::modelDissent, isWidth = member == &Options::raiseWidth;
+    expectError(options, isShare ? " -1.5 is outside 0 to 1" : isWidth ? " -1.5 is outside 0 to 64"
+        : member == &Options::contourReach                             ? " -1.5: above 0 is needed"
+                                                                       : " -1.5: at least 0 is needed");
     options.*member = nan;
     expectError(options, "nan");
     options.*member = 0.0;
     if (member == &Options::contourReach)
     {
-      expectError(options, "0.0");
+      expectError(options, "contour reach 0: above 0 is needed");
     }
     else
     {
@@ -357,9 +360,9 @@ TEST(FieldCorrection, OptionsOutOfRangeAreErrorsThatNameTheValue)
   expectError(options, "1.25");
   options = {};
   options.alignments = 0;
-  expectError(options, "0");
+  expectError(options, "alignments 0 is outside 1 to 100");
   options.alignments = 101;
-  expectError(options, "0");
+  expectError(options, "alignments 101 is outside 1 to 100");
   options.alignments = -3;
   expectError(options, "-3");
 }

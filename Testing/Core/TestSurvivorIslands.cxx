@@ -4,6 +4,7 @@
 #include "CarvingTestCaptures.h"
 #include "CornerShell.h"
 #include "LatticeRegions.h"
+#include "ParameterRange.h"
 
 #include <gtest/gtest.h>
 
@@ -195,7 +196,7 @@ TEST(SurvivorIslands, RefusesSharesOutOfRange)
     }
     catch (const InvalidInput& error)
     {
-      EXPECT_NE(std::string(error.what()).find("island share " + std::to_string(share) + " is outside 0 to 1"),
+      EXPECT_NE(std::string(error.what()).find("island share " + numberText(share) + " is outside 0 to 1"),
         std::string::npos)
         << error.what();
     }

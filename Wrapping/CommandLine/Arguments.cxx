@@ -2,6 +2,7 @@
 #include "Arguments.h"
 
 #include "ExitCodes.h"
+#include "ParameterRange.h"
 #include "Version.h"
 
 #include <algorithm>
@@ -109,14 +110,6 @@ CLI::App* addCommand(CLI::App& program, const std::string& name, const std::stri
   command->set_help_flag("-h,--help", "This text");
   command->set_version_flag("--version", ProgramVersion, "The program's version");
   return command;
-}
-
-std::string numberText(double value)
-{
-  std::ostringstream text;
-  text.precision(10); // 2^32 in full
-  text << value;
-  return text.str();
 }
 
 CLI::Validator inRange(double least, double greatest, bool whole)

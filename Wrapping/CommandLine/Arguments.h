@@ -29,9 +29,6 @@ public:
 /** A command with --help and --version as the program has them. */
 CLI::App* addCommand(CLI::App& program, const std::string& name, const std::string& description);
 
-/** A number as a user would write it. */
-std::string numberText(double value);
-
 /** A number from `least` to `greatest`, both allowed; a whole one if `whole`. */
 CLI::Validator inRange(double least, double greatest, bool whole = false);
 /** A number above 0, up to `greatest`. */

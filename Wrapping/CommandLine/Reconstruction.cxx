@@ -6,6 +6,7 @@
 #include "MeshFiles.h"
 #include "OutputChecks.h"
 #include "OutputFiles.h"
+#include "ParameterRange.h"
 #include "Preview.h"
 #include "Reconstruct.h"
 #include "VotingMarchingCubes.h"
