@@ -198,7 +198,8 @@ fs::path findPhotograph(const fs::path& folder, const std::string& name)
   return {};
 }
 
-fs::path findMask(const fs::path& folder, const std::string& name)
+/** The files that may be the mask of an image, that which is taken first. */
+std::vector<fs::path> masksOf(const fs::path& folder, const std::string& name)
 {
   const fs::path within = nameWithin(folder, name), images = "images";
   const fs::path inImages = *within.begin() == images ? within.lexically_relative(images) : within;
@@ -210,8 +211,21 @@ fs::path findMask(const fs::path& folder, const std::string& name)
   {
     candidates.push_back(fs::path(mask).replace_extension(extension));
   }
-  const auto found = std::find_if(candidates.begin(), candidates.end(), isFile);
-  return found == candidates.end() ? fs::path() : *found;
+  std::vector<fs::path> masks;
+  for (const fs::path& candidate : candidates)
+  {
+    if (isFile(candidate) && std::find(masks.begin(), masks.end(), candidate) == masks.end())
+    {
+      masks.push_back(candidate);
+    }
+  }
+  return masks;
+}
+
+fs::path findMask(const fs::path& folder, const std::string& name)
+{
+  const std::vector<fs::path> masks = masksOf(folder, name);
+  return masks.empty() ? fs::path() : masks.front();
 }
 
 CaptureEntry makeEntry(const CaptureDescription& capture, const NamedProjection& view, bool cornerFamily)
@@ -249,6 +263,27 @@ void checkMasksDiffer(const std::vector<CaptureEntry>& entries)
       {
         throw InvalidInput(entry.mask.string() + ": would be the mask of both view " +
                            inQuotes(found->second) + " and view " + inQuotes(entry.name));
+      }
+    }
+  }
+}
+
+/** Of two files that may be a view's mask, neither of them another view's, nobody knows which is meant. */
+void checkMasksAreSingle(const CaptureDescription& capture, const CameraFile& cameras)
+{
+  std::set<fs::path> taken;
+  for (const NamedProjection& view : cameras.views)
+  {
+    taken.insert(findMask(capture.folder, view.name));
+  }
+  for (const CaptureEntry& entry : capture.entries)
+  {
+    for (const fs::path& mask : masksOf(capture.folder, entry.name))
+    {
+      if (taken.count(mask) == 0)
+      {
+        throw InvalidInput(entry.mask.string() + " and " + mask.string() + ": either would be the mask of view " +
+                           inQuotes(entry.name) + "; keep one");
       }
     }
   }
@@ -349,6 +384,7 @@ CaptureDescription describeCapture(const fs::path& folderOrCameraFile, const Cap
     capture.entries.push_back(makeEntry(capture, cameras.views[std::size_t(view)], options.cornerFamily));
   }
   checkMasksDiffer(capture.entries);
+  checkMasksAreSingle(capture, cameras);
   warnOfUnnamedImages(capture, cameras);
   warnOfUnusedMasks(capture, cameras);
   return capture;

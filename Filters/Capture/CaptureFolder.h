@@ -56,7 +56,7 @@ std::vector<std::string> captureViewNames(const std::filesystem::path& folderOrC
 /**
  * Describe the capture in a folder, or that of a camera file. Throws InvalidInput, naming file, line or view,
  * and value: no or several camera files; whatever CameraFiles.h throws; a selection that fits no view; and of
- * the views used: neither photograph nor mask, a mask shared by two, a projection of rank below 3. Warns of
+ * the views used: neither photograph nor mask, two masks, a mask shared by two, a projection of rank below 3. Warns of
  * images in images/ that the camera file does not name.
  */
 CaptureDescription describeCapture(const std::filesystem::path& folderOrCameraFile,

@@ -209,6 +209,35 @@ TEST(CaptureFolder, SharedMasksAndRank)
                     "projections.txt line 2: the projection of view 'a.jpg' has rank 2; a camera needs 3"));
 }
 
+TEST(CaptureFolder, TwoMasksOfAView)
+{
+  const TemporaryFolder folder;
+  folder.write("projections.txt", "a.png" + P + "b.png" + P);
+  folder.write("images/a.png");
+  folder.write("images/b.png");
+  folder.write("masks/a.png");
+  const std::filesystem::path masks = folder.path() / "masks";
+  for (const char* other : {"a.jpg", "a.png.png", "a.pgm"})
+  {
+    folder.write(std::string("masks/") + other);
+    EXPECT_TRUE(holds(errorIn(folder), (masks / "a.png").string() + " and " + (masks / other).string() +
+                                           ": either would be the mask of view 'a.png'"));
+    EXPECT_EQ(describeCapture(folder.path(), withViews("b.png")).entries.size(), 1u) << "a view that is not used may";
+    std::filesystem::remove(masks / other);
+  }
+  folder.write("masks/a.txt");
+  EXPECT_EQ(describeCapture(folder.path()).entries.at(0).mask, masks / "a.png");
+
+  // Views of equal stem have masks of equal stem.
+  folder.write("projections.txt", "a.png" + P + "a.jpg" + P);
+  folder.write("images/a.jpg");
+  folder.write("masks/a.jpg");
+  const CaptureDescription capture = describeCapture(folder.path());
+  EXPECT_EQ(capture.entries.at(0).mask, masks / "a.png");
+  EXPECT_EQ(capture.entries.at(1).mask, masks / "a.jpg");
+  EXPECT_EQ(describeCapture(folder.path(), withViews("a.png")).entries.size(), 1u);
+}
+
 TEST(CaptureFolder, ImagesThatNoLineNames)
 {
   const TemporaryFolder folder;
