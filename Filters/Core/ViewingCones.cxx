@@ -242,9 +242,12 @@ Box intersectViewingCones(const PreparedViews& views, int backgroundVotes)
       throwEmpty(views, cones, centre, half, backgroundVotes);
     }
   }
+  const bool mayDissent = backgroundVotes > 0;
   throw UnboundedObject("automatic bounds: the viewing cones of the " + std::to_string(views.size()) +
-    (views.size() == 1 ? " view do" : " views do") +
-    " not close around the object; give the bounds, or more views from other directions");
+    (views.size() == 1 ? " view" : " views") +
+    (mayDissent ? ", of which " + std::to_string(backgroundVotes) + " may dissent (background votes)," : "") +
+    " do not close around the object; give the bounds, " + (mayDissent ? "fewer background votes, " : "") +
+    "or more views from other directions");
 }
 
 Vector3 nearestPointToRays(const std::vector<Projection>& projections, const std::vector<Vector2>& pixels)

@@ -82,6 +82,22 @@ TEST(AutomaticBounds, OneViewDoesNotBoundAnything)
   catch (const UnboundedObject& error)
   {
     EXPECT_NE(std::string(error.what()).find("of the 1 view do not close"), std::string::npos);
+    EXPECT_EQ(std::string(error.what()).find("background votes"), std::string::npos);
+  }
+}
+
+TEST(AutomaticBounds, VotesThatLeaveTooFewViewsAreNamed)
+{
+  const auto views = viewsOf(sphereMesh(4, 0.9), swayingRing(12, 200), 200);
+  try
+  {
+    boundsOf(views, 6, 11);
+    FAIL();
+  }
+  catch (const UnboundedObject& error)
+  {
+    EXPECT_STREQ(error.what(), "automatic bounds: the viewing cones of the 12 views, of which 11 may dissent (background votes), do not "
+                               "close around the object; give the bounds, fewer background votes, or more views from other directions");
   }
 }
 
