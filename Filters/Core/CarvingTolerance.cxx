@@ -184,6 +184,9 @@ private:
     const std::vector<double> shares =
       uncoveredShares(carving.octree, *this->Given, this->Options.measure, measuring);
     carving.uncovered = std::accumulate(shares.begin(), shares.end(), 0.0) / double(shares.size());
+    const auto greatest = std::max_element(shares.begin(), shares.end());
+    carving.leastCoveredView = int(greatest - shares.begin());
+    carving.greatestUncovered = *greatest;
     return carving;
   }
 

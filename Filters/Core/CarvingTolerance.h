@@ -47,6 +47,8 @@ struct TolerantCarving
   /** mean share that k to begin with leaves uncovered, of the views given */
   double strictUncovered = 0.0;
   double uncovered = 0.0;                     ///< the same of this octree
+  int leastCoveredView = 0;                   ///< the view with the largest share, the first of several
+  double greatestUncovered = 0.0;             ///< its share
   int carves = 1;                             ///< how many octrees were carved to find it
 };
 

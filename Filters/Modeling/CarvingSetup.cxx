@@ -242,7 +242,9 @@ CarvedViews carveWithTolerance(const SharedViews& views, const LatticeSettings& 
     text.precision(3);
     text << "the octree leaves " << 100.0 * found.uncovered
          << " % of the silhouettes uncovered, more than noise does: a camera, " << (settings.automaticBounds ? "" : "the given box, ")
-         << "or a silhouette, is probably wrong";
+         << "or a silhouette, is probably wrong; "
+         << describeView(std::size_t(found.leastCoveredView), (*views)[found.leastCoveredView].name) << " has the most uncovered, "
+         << 100.0 * found.greatestUncovered << " %";
     warn(text.str());
   }
   return carved;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -192,6 +193,25 @@ TEST(CarvingTolerance, TooManyVotesToBoundTheObjectAreTooMany)
   EXPECT_EQ(carveTolerantly(views, carve, {}, execution).octree.backgroundVotes, 0);
   const Carve never = [](const PreparedViews&, int, Execution&) -> Octree { throw NothingSurvives("nothing"); };
   EXPECT_THROW(carveTolerantly(views, never, {}, execution), NothingSurvives);
+}
+
+TEST(CarvingTolerance, TheLeastCoveredViewIsNamed)
+{
+  Execution execution;
+  auto views = rodOnSlab();
+  CarvingToleranceOptions strict;
+  strict.voteShare = 0.0;
+  strict.greatestDilation = 0.0;
+  auto& pixels = views[3].silhouette;
+  for (int row = 0; row < pixels.height / 2; ++row)
+  {
+    std::fill_n(pixels.pixels.begin() + row * pixels.width, pixels.width, std::uint8_t(1)); // what no other view has there
+  }
+  const TolerantCarving carving = tolerant(views, strict);
+  const auto shares = uncoveredShares(carving.octree, prepareViews(views), {}, execution);
+  EXPECT_EQ(carving.leastCoveredView, 3);
+  EXPECT_EQ(carving.greatestUncovered, *std::max_element(shares.begin(), shares.end()));
+  EXPECT_GT(carving.greatestUncovered, carving.uncovered);
 }
 
 TEST(CarvingTolerance, OfWhichNothingSurvivesStrictly)

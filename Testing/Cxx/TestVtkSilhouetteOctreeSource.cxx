@@ -490,6 +490,9 @@ TEST(VtkSilhouetteOctreeSource, WarnsOfWhatNoToleranceExplains)
   source->Update();
   EXPECT_TRUE(listener.Errors.empty());
   EXPECT_EQ(listener.warnings("% of the silhouettes uncovered, more than noise does: a camera, or a silhouette"), 1);
+  EXPECT_EQ(listener.warnings("is probably wrong; view "), 1);
+  EXPECT_EQ(listener.warnings(" has the most uncovered, "), 1);
+  EXPECT_EQ(listener.warnings("; view 2 (disc2.png)") + listener.warnings("; view 5 (disc5.png)"), 0) << "they cut, and are covered";
   source->SetInputData(ringViews());
   const Listener silent(source);
   source->Update();
