@@ -30,8 +30,10 @@ class Surfaces(ProgramTest):
 
     def test_pieces_make_the_same_mesh(self):
         for kind in ("voting", "marching-cubes"):
-            whole = self.reconstruct("--surface", kind, depth=6, mesh="whole.ply")
-            parts = self.reconstruct("--surface", kind, "--pieces", 5, depth=6, mesh="parts.ply")
+            truth = ["--truth", self.capture / "truth.ply"]
+            whole = self.reconstruct("--surface", kind, *truth, depth=6, mesh="whole.ply")
+            parts = self.reconstruct("--surface", kind, "--pieces", 5, *truth, depth=6, mesh="parts.ply")
+            self.assertEqual(parts["sample_spacing"], parts["leaf_edge"])
             self.assert_sound(parts)
             self.assertIsNone(parts.pop("lost_surface"))
             self.assertIsInstance(whole.pop("lost_surface"), int)

@@ -131,12 +131,18 @@ bool hasField(vtkDataObject* data, const char* name)
   return array && array->GetNumberOfValues() > 0;
 }
 
+double leafEdge(vtkHyperTreeGrid* octree)
+{
+  vtkDataArray* cube = fieldArray(octree, "RootCube");
+  const bool isThere = cube && cube->GetNumberOfValues() == 4;
+  return isThere ? std::ldexp(cube->GetVariantValue(3).ToDouble(), -static_cast<int>(fieldCount(octree, "Depth"))) : 0.0;
+}
+
 void addOctree(Metrics& metrics, vtkHyperTreeGrid* octree, vtkPartitionedDataSetCollection* views)
 {
-  const auto depth = static_cast<int>(fieldCount(octree, "Depth"));
   vtkDataArray* cube = fieldArray(octree, "RootCube");
   metrics["views"] = fieldCount(octree, "NumberOfViews");
-  metrics["depth"] = depth;
+  metrics["depth"] = fieldCount(octree, "Depth");
   if (cube && cube->GetNumberOfValues() == 4)
   {
     double values[4];
@@ -144,7 +150,7 @@ void addOctree(Metrics& metrics, vtkHyperTreeGrid* octree, vtkPartitionedDataSet
     {
       values[i] = cube->GetVariantValue(i).ToDouble();
     }
-    metrics["leaf_edge"] = std::ldexp(values[3], -depth);
+    metrics["leaf_edge"] = leafEdge(octree);
     metrics["root_cube"] = { { "origin", { values[0], values[1], values[2] } }, { "edge", values[3] } };
   }
   metrics["background_votes"] = fieldCount(octree, "BackgroundVotes");

@@ -32,6 +32,9 @@ double fieldValue(vtkDataObject* data, const char* name);
 std::uint64_t fieldCount(vtkDataObject* data, const char* name);
 bool hasField(vtkDataObject* data, const char* name);
 
+/** The edge of the last generation's octants, as the octree's field data have it; 0 where they do not. */
+double leafEdge(vtkHyperTreeGrid* octree);
+
 /** What the octree is and what it cost: views, depth, leaf_edge, octants_tested, carved_by_view and so on. */
 void addOctree(Metrics& metrics, vtkHyperTreeGrid* octree, vtkPartitionedDataSetCollection* views);
 

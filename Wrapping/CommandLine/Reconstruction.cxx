@@ -299,6 +299,7 @@ void Reconstruction::evaluate(vtkPolyData* stored)
   if (this->Truth)
   {
     this->Evaluator->SetTruthData(this->Truth);
+    this->Evaluator->SetSampleSpacing(leafEdge(this->octreeFields())); // its own default, but pieces leave it no octree
   }
   if (vtkDataArray* given = this->Surface->GetFieldData()->GetArray("DroppedLeaves"))
   {
