@@ -190,6 +190,14 @@ class TestErrors(unittest.TestCase):
         self.check(ValueError, r"mask 1 has shape \(4, 4, 3\)", [self.masks[0], np.zeros((4, 4, 3), bool)])
         self.check(TypeError, "mask 0 has dtype float64", [self.masks[0] * 1.0])
         self.check(ValueError, "from 0 to 300", [self.masks[0].astype(np.int32) * 300])
+        for largest in (2, 3, 127):
+            self.check(ValueError, f"mask 1 has values from 0 to {largest}, none of which is object: .* above 127, or not 0",
+                       [self.masks[0], self.masks[1] * np.uint8(largest)])
+        for masks in (None, 5):
+            with self.assertRaisesRegex(TypeError, f"masks are {masks}, they are a sequence of 2-D arrays"):
+                reconstruct(masks, self.projections)
+            with self.assertRaisesRegex(TypeError, f"masks are {masks}, they are a sequence of 2-D arrays"):
+                octree(masks, self.projections)
 
     def test_projections(self):
         self.check(ValueError, r"\(6, 3, 4\), not \(5, 3, 4\)", projections=self.projections[:5])
@@ -204,6 +212,8 @@ class TestErrors(unittest.TestCase):
         self.check(ValueError, "bounds are", bounds=(0, 1, 2))
         self.check(ValueError, "'nowhere', it is one of border", outside="nowhere")
         self.check(ValueError, "5 names", names=list("abcde"))
+        for names in (5, {"a", "b"}, {"a": 1, "b": 2}, iter("abcdef")):
+            self.check(TypeError, "names are .*, they are a sequence of names", names=names)
         self.check(ValueError, "carving is 'lax', it is one of tolerant, strict", carving="lax")
         self.check(ValueError, "mode is 'fast', it is one of robust, thesis", mode="fast")
         self.check(ValueError, "masks are 0", masks=[], projections=np.empty((0, 3, 4)))

@@ -87,7 +87,7 @@ def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", 
     """Reconstructs the mesh of an object from silhouettes.
 
     masks        sequence of m 2-D arrays, row 0 at the top; they may differ in size. Object is True, or
-                 above 127, or not 0 where the largest value is 1
+                 above 127, or not 0 where the largest value is 1; other largest values from 2 to 127 are an error
     projections  (m, 3, 4) array: the camera of each mask
     depth        1 to 16: subdivisions of the cube around the object. One more halves the triangles' edges,
                  and takes about four times the time and memory
@@ -110,7 +110,8 @@ def reconstruct(masks, projections, depth=8, bounds=None, surface="local-hull", 
                  of slices, combined
     drop_islands 0 to 1: pieces of the octree with fewer octants than this share of the largest one's are given up,
                  and octants that only false pixels uphold; 0 keeps all
-    repair       fill what a single view cuts deep and wide out of the object
+    repair       repair silhouettes: speckles, filled in the object and erased in the background, and what a single
+                 view cuts deep and wide out of the object, filled
     alignment    shift views against an error of their cameras, where one is measured
     correction   move the surface to where the views agree on average
     thin_hulls   round parts thinner than an octant
@@ -172,6 +173,10 @@ def octree(masks, projections, depth=8, bounds=None, vote_share=1.0, outside="bo
 
     Returns an Octree: the octants that survived, with their centres and edge lengths.
 
+    Raises what reconstruct() does: TypeError where an argument is of another type, ValueError with its name and value
+    where it is out of range, before any work; and RuntimeError with the filter's message where the views give no object.
+    What is doubtful but not fatal comes as a RuntimeWarning.
+
         >>> tree = octree(masks, projections, depth=6)
         >>> solid = tree.centres()[tree.states == 2]
     """
@@ -199,14 +204,10 @@ def _octree_source(masks, projections, depth, bounds, vote_share, outside, names
     if bounds is not None:
         source.AutomaticBoundsOff()
         source.SetBounds(*_box(bounds))
-    images = [_image(mask, view) for view, mask in enumerate(masks)]
-    if not images:
-        raise ValueError("masks are 0, at least 1 view is needed")
+    images = _images(masks)
     matrices = _matrices(projections, len(images))
-    if names is not None and len(names) != len(images):
-        raise ValueError(f"{len(images)} masks, but {len(names)} names")
-    for view, (image, matrix) in enumerate(zip(images, matrices)):
-        source.AddView(image, matrix.ravel().tolist(), str(names[view]) if names is not None else None)
+    for image, matrix, name in zip(images, matrices, _names(names, len(images))):
+        source.AddView(image, matrix.ravel().tolist(), name)
     source.SetBackgroundVotes(len(images) - max(1, math.ceil(vote_share * len(images) - 1e-9)))
     return source
 
@@ -253,6 +254,30 @@ def _box(bounds):
     return box.tolist()
 
 
+def _images(masks):
+    try:
+        views = enumerate(masks)
+    except TypeError:
+        raise TypeError(f"masks are {masks!r:.200}, they are a sequence of 2-D arrays") from None
+    images = [_image(mask, view) for view, mask in views]
+    if not images:
+        raise ValueError("masks are 0, at least 1 view is needed")
+    return images
+
+
+def _names(names, count):
+    """A name for each of `count` views, or None."""
+    if names is None:
+        return [None] * count
+    try:
+        texts = [str(names[view]) for view in range(len(names))]
+    except (TypeError, KeyError):
+        raise TypeError(f"names are {names!r:.200}, they are a sequence of names") from None
+    if len(texts) != count:
+        raise ValueError(f"{count} masks, but {len(texts)} names")
+    return texts
+
+
 def _image(mask, view):
     """A mask as VTK holds images: the bottom row first."""
     array = np.asarray(mask)
@@ -264,6 +289,9 @@ def _image(mask, view):
         if array.min() < 0 or array.max() > 255:
             raise ValueError(f"mask {view} has values from {array.min()} to {array.max()}, "
                              "integers are 0 to 255")
+        if 1 < array.max() <= 127:
+            raise ValueError(f"mask {view} has values from {array.min()} to {array.max()}, none of which is object: that is "
+                             "True, above 127, or not 0 where the largest value is 1, as in 'mask > 0'")
         array = array.astype(np.uint8)
     else:
         raise TypeError(f"mask {view} has dtype {array.dtype}, it is bool or integer: say what is object, "
