@@ -42,7 +42,11 @@ struct LocalHullOptions
    * generation that only pixels uphold which the repair finds false. Islands are then those of what is left.
    */
   double islandShare = 0.0;
-  bool repairSilhouettes = true; ///< Robust, with views: fill what a single view cuts deep and wide out of the object
+  /**
+   * Robust, with views: repair speckles, filled in the object and erased in the background, and what a single view cuts deep and wide out of
+   * the object, filled.
+   */
+  bool repairSilhouettes = true;
   bool thinHulls = true;         ///< Robust, with views: round thin parts into hulls of the balls that fit into them
   SilhouetteRepairOptions repair;
   FieldCorrectionOptions correction; ///< Robust, with views

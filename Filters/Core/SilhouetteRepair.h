@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Repair of silhouettes by what the other views say (Documentation/method.md, section 4): speckles,
- * background holes smaller than the lattice can show, and blobs, regions that a single view cuts deep and
+ * background holes smaller than the lattice can show and a few pixels of object that stand alone, and blobs, regions that a single view cuts deep and
  * long out of the object.
  */
 #pragma once

@@ -144,8 +144,9 @@ void Reconstruct::addLocalHulls()
     ->group(group);
   const auto addSwitch = [&](const char* name, bool& option, const char* help)
   { this->Switches.push_back(this->App->add_flag_callback(name, [&option] { option = false; }, help)->group(group)); };
-  addSwitch("--no-repair", this->Options.repair, "Leave silhouettes as they are, where a single view cuts deep and wide "
-                                                 "into the object too");
+  addSwitch("--no-repair", this->Options.repair, "Leave silhouettes as they are: speckles, in the object and in the "
+                                                 "background, and what a single view cuts deep and wide out of the "
+                                                 "object; without it the former are filled and erased, the latter filled");
   addSwitch("--no-alignment", this->Options.alignment, "Leave views where their cameras say they are");
   addSwitch("--no-correction", this->Options.correction, "Leave the surface where the strictest views say it is, not "
                                                          "where they agree on average");
@@ -206,7 +207,8 @@ void Reconstruct::addRest()
 {
   const char* const group = "Run";
   this->App
-    ->add_option("--truth", this->Options.truth, "A mesh to measure the distance to: .vtp, .ply, .stl or .obj")
+    ->add_option("--truth", this->Options.truth, "A mesh to measure the distance to, from samples a leaf edge of the octree apart "
+                                                "(evaluate's are a 512th of the truth's longest side): .vtp, .ply, .stl or .obj")
     ->type_name("MESH")
     ->group(group);
   this->App
