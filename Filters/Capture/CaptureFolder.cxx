@@ -373,6 +373,28 @@ std::vector<std::string> captureViewNames(const fs::path& folderOrCameraFile)
   return namesOf(readCameraFile(locateCapture(folderOrCameraFile).cameraFile));
 }
 
+std::vector<fs::path> captureFiles(const fs::path& folderOrCameraFile)
+{
+  const CaptureDescription capture = locateCapture(folderOrCameraFile);
+  std::vector<fs::path> files = {capture.cameraFile};
+  for (const std::string& name : namesOf(readCameraFile(capture.cameraFile)))
+  {
+    for (const fs::path& image : {findPhotograph(capture.folder, name), findMask(capture.folder, name)})
+    {
+      if (!image.empty())
+      {
+        files.push_back(image);
+      }
+    }
+  }
+  for (const char* folder : {"images", "masks"})
+  {
+    const std::vector<fs::path> inFolder = filesOf(capture.folder / folder);
+    files.insert(files.end(), inFolder.begin(), inFolder.end());
+  }
+  return files;
+}
+
 CaptureDescription describeCapture(const fs::path& folderOrCameraFile, const CaptureOptions& options)
 {
   CaptureDescription capture = locateCapture(folderOrCameraFile);

@@ -54,6 +54,12 @@ struct CaptureDescription
 std::vector<std::string> captureViewNames(const std::filesystem::path& folderOrCameraFile);
 
 /**
+ * The camera file, the photographs and masks of all its views, as far as they are there, and what else lies in images/ and masks/. Throws InvalidInput as
+ * captureViewNames().
+ */
+std::vector<std::filesystem::path> captureFiles(const std::filesystem::path& folderOrCameraFile);
+
+/**
  * Describe the capture in a folder, or that of a camera file. Throws InvalidInput, naming file, line or view,
  * and value: no or several camera files; whatever CameraFiles.h throws; a selection that fits no view; and of
  * the views used: neither photograph nor mask, two masks, a mask shared by two, a projection of rank below 3. Warns of

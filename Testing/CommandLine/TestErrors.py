@@ -82,6 +82,9 @@ class Errors(ProgramTest):
         self.refuses(place, mask, "reconstruct", capture, "-o", mesh, "--image", link)
         self.refuses(place, mask, "reconstruct", cameras, "-o", mesh, "--image", capture / "." / "masks" / mask.name)
         self.refuses(place, mask, "reconstruct", capture, "--views", "0-2", "-o", mesh, "--image", mask)
+        for folder in ("images", "masks"): # a view that is not used may lack its files
+            (capture / folder / "view_005.png").unlink()
+        self.refuses(place, mask, "reconstruct", capture, "--views", "0-2", "-o", mesh, "--image", mask)
         json = self.folder / "x.json"
         os.link(cameras, json)
         self.refuses(place, cameras, "reconstruct", capture, "-o", mesh, "--metrics", json)

@@ -29,35 +29,17 @@ bool isSameFile(const fs::path& a, const fs::path& b)
   return !error && realA == realB;
 }
 
-/** The camera file and the images of a capture; none where it cannot be read, which its reader will say. */
+/** The files of a capture; none where it cannot be read, which its reader will say. */
 std::vector<fs::path> filesOf(const std::string& capture)
 {
-  std::vector<fs::path> files;
   try
   {
-    const CaptureDescription description = describeCapture(capture);
-    files.push_back(description.cameraFile);
-    for (const CaptureEntry& entry : description.entries)
-    {
-      files.push_back(entry.photograph);
-      files.push_back(entry.mask);
-    }
-    // Those of views that are not used, too.
-    for (const char* folder : { "images", "masks" })
-    {
-      std::error_code error;
-      for (fs::directory_iterator file(description.folder / folder, error), end; !error && file != end; file.increment(error))
-      {
-        files.push_back(file->path());
-      }
-    }
+    return captureFiles(capture);
   }
   catch (const Error&)
   {
-    files.clear();
+    return {};
   }
-  files.erase(std::remove(files.begin(), files.end(), fs::path()), files.end());
-  return files;
 }
 
 } // namespace
