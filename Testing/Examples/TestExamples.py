@@ -121,6 +121,34 @@ class Readme(unittest.TestCase):
     def test_python(self):
         self.assert_many_triangles(good(sys.executable, "-c", self.block("python", "my-capture")))
 
+    def test_python_of_photographs(self):
+        text = (document.TREE / "README.md").read_text(encoding="utf-8")
+        reader, *extractor = re.findall(r"`((?:reader|extractor)\.\w+\(\))`", text)
+        code, made = self.block("python", "my-capture"), "octree = "
+        self.assert_many_triangles(good(sys.executable, "-c", code.replace(made, "\n".join([reader, *extractor, made]))))
+        done = run(sys.executable, "-c", code.replace(made, f"{reader}\n{made}"))
+        self.assertIn("a photograph without a mask or alpha is no silhouette", done.stderr)
+
+    def test_the_prefix(self):
+        clean = {name: value for name, value in environment.items() if name != "PYTHONPATH"}
+        where = 'command -v vtksilhouette; python3 -c "import vtksilhouette; print(vtksilhouette.__file__)"'
+        program, package = good("bash", "-e", "-c", self.block("sh", "PYTHONPATH") + where, env=clean).splitlines()
+        self.assertEqual(program, f"{PREFIX}/bin/vtksilhouette")
+        self.assertTrue(package.startswith(f"{PREFIX}/"), package)
+
+    def test_the_versions(self):
+        text = (document.TREE / "README.md").read_text(encoding="utf-8")
+        for path, asked, words in (("CMakeLists.txt", r"cmake_minimum_required\(VERSION ([\d.]+)\)", "CMake"),
+                                   ("CMakeLists.txt", r"find_package\(Eigen3 ([\d.]+)", "Eigen"),
+                                   ("CMake/SilhouetteModule.cmake", r"find_package\(VTK ([\d.]+)", "VTK"),
+                                   ("CMakeLists.txt", r"CMAKE_CXX_STANDARD (\d+)\)", "C\\+\\+"),
+                                   ("Wrapping/CommandLine/CMakeLists.txt", r"find_package\(nlohmann_json ([\d.]+)", "nlohmann-json")):
+            version, = re.findall(asked, (document.TREE / path).read_text(encoding="utf-8"))
+            self.assertEqual(re.findall(rf"{words} ?(\d[\d.]*)\b(?!\+)", text), [version], words)
+        lists = (document.TREE / "CMakeLists.txt").read_text(encoding="utf-8")
+        for option in set(re.findall(r"-D(SILHOUETTE_\w+)=", text)):
+            self.assertIn(f"option({option} ", lists)
+
     def test_cxx(self):
         (folder / "readme.inc").write_text(self.block("cpp", "hulls"))
         good("cmake", "-S", document.TREE / "Testing" / "Examples" / "Readme", "-B", "readme",

@@ -103,6 +103,6 @@ if(PYTHON AND PROGRAM AND NOT OFFSCREEN STREQUAL "none")
       "CMAKE_GENERATOR=${GENERATOR}" "CC=${C_COMPILER}" "CXX=${CXX_COMPILER}" "CXXFLAGS=${CXX_FLAGS}"
       "VTK_DIR=${VTK_DIR}"
       "${PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/../Examples/TestExamples.py"
-      Package PhotographsToMesh JudgedMesh VoteShareSweep NumpyMasks)
+      Package Readme.test_the_prefix PhotographsToMesh JudgedMesh VoteShareSweep NumpyMasks)
 endif()
 file(REMOVE_RECURSE "${WORK_DIR}")
