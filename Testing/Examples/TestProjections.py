@@ -5,6 +5,7 @@ they did; what cannot be a matrix is refused, with file, line or view, and value
 import json
 import os
 import pathlib
+import re
 import shlex
 import struct
 import subprocess
@@ -77,6 +78,10 @@ class ProjectionsTest(unittest.TestCase):
     def matrices(self, kind, name):
         done = self.convert(kind, name)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return self.listed()
+
+    def listed(self):
+        """The matrices of the list, by name."""
         lines = [shlex.split(line) for line in self.list.read_text(encoding="utf-8").splitlines()]
         return {line[0]: np.array(line[1:], dtype=float).reshape(3, 4) for line in lines}
 
@@ -288,6 +293,26 @@ class OpenCV(ProjectionsTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn("projections.txt is both", done.stderr)
         self.assertEqual(self.list.read_text(), before)
+
+
+class Document(ProjectionsTest):
+    """Documentation/formats.md's commands, one for each format, in a folder that has what they name."""
+
+    def test_its_commands(self):
+        text = (TREE / "Documentation" / "formats.md").read_text(encoding="utf-8")
+        commands = re.findall(r"^python3 (Examples/Python/projections_from_cameras.py) (\w+) (\S+) (\S+)$", text, re.MULTILINE)
+        self.assertEqual([command[1] for command in commands], ["colmap", "nerf", "opencv"])
+        Colmap.write(self, [Colmap.PINHOLE])
+        Nerf.write(self, cameras(), fl_x=700.0, fl_y=690.0, cx=310.75, cy=252.0)
+        OpenCV.write(self, OpenCV.views(self), K=Camera(0).k())
+        (self.folder / "my-capture").mkdir()
+        (self.folder / "sparse").symlink_to(".")
+        (self.folder / "my-capture" / "transforms.json").symlink_to("../transforms.json")
+        (self.folder / "my-capture" / "projections.txt").symlink_to("../projections.txt")
+        for script, *arguments in commands:
+            subprocess.run([sys.executable, TREE / script, *arguments], cwd=self.folder, check=True,
+                           stdout=subprocess.DEVNULL)
+            self.assert_projects(self.listed(), cameras())
 
 
 class Capture(ProjectionsTest):
