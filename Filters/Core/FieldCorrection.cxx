@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldCorrection.h"
 
+#include "BlockAgreement.h"
 #include "BlockBits.h"
 #include "ContourDeficit.h"
 #include "ContourLimit.h"
@@ -13,7 +14,6 @@
 #include "NearViews.h"
 #include "ParameterRange.h"
 #include "SurfaceCells.h"
-#include "ViewAgreement.h"
 #include "ViewAlignment.h"
 
 #include <algorithm>
@@ -202,14 +202,14 @@ private:
       this->Ranked.clear();
       resizeSideBySide(this->Ranked, this->Least.size(), execution);
     }
-    const auto take = [&](std::size_t block, const float* least)
+    const auto take = [&](std::size_t block, const BlockGroups&, const float* least)
     {
       std::copy_n(least, BlockPoints, &this->Least.values()[block]);
       std::copy_n(least + std::size_t(rank - 1) * BlockPoints, BlockPoints, &this->Ranked[block]);
     };
-    const auto allAreFar = [far = float(this->Views.reach())](std::size_t, const float* greatest)
+    const auto allAreFar = [far = float(this->Views.reach())](std::size_t, const BlockGroups&, const float* greatest)
     { return std::all_of(greatest, greatest + BlockPoints, [far](float value) { return value <= -far; }); };
-    forLeastDistances(this->Least, this->Views, rank, [](std::size_t) { return true; }, allAreFar, take, execution);
+    forLeastDistances(this->Least, this->Views, rank, [](std::size_t) { return BlockGroups::all(); }, allAreFar, take, execution);
   }
 
   /** From the least distance to the model, and from the model to where the views agree. */
@@ -258,33 +258,31 @@ private:
       [&](std::size_t first, std::size_t last) { std::copy(&model[first], &model[0] + last, &values[first]); });
     const float band = float(this->Band);
     const auto inBand = [&](float value) { return std::abs(value) < band; };
-    const auto concerns = [&](std::size_t block) { return std::any_of(&model[block], &model[block] + BlockPoints, inBand); };
+    const auto concerns = [&](std::size_t block) { return BlockGroups::where([&](std::size_t n) { return inBand(model[block + n]); }); };
     const auto makeWork = [&]
     {
-      return [&, own = std::vector<float>(maps.size() * BlockPoints), seen = std::vector<float>(maps.size() * BlockPoints)](
-               std::size_t block, const std::vector<NearView>& near) mutable
+      return [&, own = std::vector<float>(maps.size() * BlockPoints)](std::size_t block, const BlockGroups& groups, const std::vector<NearView>& near) mutable
       {
         const LatticePoint lowest = fromMorton(this->Least.code(block));
         for (std::size_t i = 0; i < near.size(); ++i)
         {
-          const auto& [view, region] = near[i];
           if (i + 1 < near.size())
           {
             this->Views.fetch(maps[near[i + 1].view], near[i + 1].region);
             this->Views.fetch(this->Views.observed(near[i + 1].view), near[i + 1].region);
           }
-          this->Views.insideBlock(
-            view, lowest, region, { { maps[view], &own[i * BlockPoints] }, { this->Views.observed(view), &seen[i * BlockPoints] } });
+          this->Views.insideBlock(near[i].view, lowest, near[i].region, groups, maps[near[i].view], &own[i * BlockPoints]);
         }
         float agreed[BlockPoints];
-        this->agree(near, own.data(), seen.data(), agreed);
+        this->agree(lowest, groups, near, own.data(), agreed);
         const bool atBorder = touchesBorder(this->Views.lattice(), lowest);
-        for (std::size_t n = 0; n < BlockPoints; ++n)
+        for (std::size_t n = 0; n < groups.points(); ++n)
         {
-          if (inBand(model[block + n]))
+          const std::size_t point = groups.point(n);
+          if (inBand(model[block + point]))
           {
-            const bool border = atBorder && this->Views.lattice().onBorder(lowest + fromMorton(n));
-            values[block + n] = border ? -float(this->Views.reach()) : agreed[n];
+            const bool border = atBorder && this->Views.lattice().onBorder(lowest + fromMorton(point));
+            values[block + point] = border ? -float(this->Views.reach()) : agreed[n];
           }
         }
       };
@@ -294,35 +292,40 @@ private:
   }
 
   /**
-   * What the field is to be at a block's points. `own` and `seen` hold the distances in the model's and in the observed silhouettes for the
-   * views that are near; others say the whole reach in both.
+   * What the field is to be at the points of some groups of a block. `own` holds their distances in the model's silhouettes for the views that are near; others say the whole
+   * reach, in those and in the observed ones.
    */
-  void agree(const std::vector<NearView>& near, const float* own, const float* seen, float* agreed) const
+  void agree(const LatticePoint& lowest, const BlockGroups& groups, const std::vector<NearView>& near, const float* own, float* agreed) const
   {
-    const float far = float(this->Views.reach()), reach = float(this->Options.contourReach * this->Length.proportion);
-    ViewAgreement sums(far);
+    const float far = float(this->Views.reach());
+    BlockAgreement views(groups.points(), far, float(this->Options.contourReach * this->Length.proportion), float(this->Length.limit()));
     for (std::size_t n = 0; n < near.size(); ++n)
     {
-      sums.approach(&own[n * BlockPoints]);
+      views.approach(&own[n * BlockPoints]);
     }
-    const float deepest = *std::max_element(sums.least, sums.least + BlockPoints);
-    const bool farAreHeard = (far - deepest) / reach < ViewAgreement::GreatestDeviation;
-    float others[BlockPoints];
+    float others[BlockPoints], seen[BlockPoints];
     std::fill(others, others + BlockPoints, far);
+    const BlockGroups whereOthersAreHeard = views.heard(others);
     std::size_t next = 0;
     for (const int view : this->All)
     {
-      const bool isNear = next < near.size() && near[next].view == view;
-      if (isNear || farAreHeard)
+      if (next == near.size() || near[next].view != view)
       {
-        sums.hear(isNear ? &own[next * BlockPoints] : others, isNear ? &seen[next * BlockPoints] : others, 1.0f / reach,
-          float(this->Length.limit()));
+        views.hear(whereOthersAreHeard, others, others);
+        continue;
       }
-      next += isNear;
+      const float* const modelled = &own[next * BlockPoints];
+      const BlockGroups heard = views.heard(modelled);
+      if (!heard.empty())
+      {
+        this->Views.insideBlock(view, lowest, near[next].region, groups.at(heard), this->Views.observed(view), seen);
+        views.hear(heard, modelled, seen);
+      }
+      ++next;
     }
-    for (std::size_t n = 0; n < BlockPoints; ++n)
+    for (std::size_t n = 0; n < groups.points(); ++n)
     {
-      agreed[n] = sums.weights[n] > 0.0f ? std::clamp(sums.least[n] + sums.sum[n] / sums.weights[n], -far, far) : sums.least[n];
+      agreed[n] = std::clamp(views.least(n) + views.difference(n), -far, far);
     }
   }
 

@@ -16,7 +16,6 @@ namespace
 /** Octants: so far inside of the survivors' own surface the field is raised. Nearer few more are covered, and it all stands further out; see method.md. */
 constexpr float Margin = 0.1f;
 constexpr float LeastWeight = 0.01f; ///< below which nothing is raised
-constexpr std::size_t BlockPoints = FieldViews::BlockPoints;
 
 /** Those of some cells all of whose corners have values, none of them a positive one. */
 std::vector<std::uint64_t> lostCells(const BrickField& field, const std::vector<std::uint64_t>& cells, Execution& execution)
@@ -68,10 +67,11 @@ public:
     return w < LeastWeight ? 0.0f : w * w * (3.0f - 2.0f * w);
   }
 
-  bool isAny(std::size_t block) const
+  /** Where in a block there are any. */
+  BlockGroups groups(std::size_t block) const
   {
-    const auto first = this->Field.values().begin() + std::ptrdiff_t(block);
-    return std::any_of(first, first + BlockPoints, [this](float value) { return this->Gain * value >= LeastWeight; });
+    const float* const values = &this->Field.values()[block];
+    return BlockGroups::where([&](std::size_t n) { return this->Gain * values[n] >= LeastWeight; });
   }
 
 private:
@@ -89,25 +89,26 @@ void raiseToSurvivors(BrickField& field, const std::vector<std::uint64_t>& survi
     return;
   }
   const Weights weights(field.lattice(), lost, gaussianKernel(width), execution);
-  const auto concerns = [&](std::size_t block) { return weights.isAny(block) && field.find(weights.field().code(block)) >= 0; };
+  const auto concerns = [&](std::size_t block) { return field.find(weights.field().code(block)) >= 0 ? weights.groups(block) : BlockGroups(0); };
   const auto valuesOf = [&](std::size_t block) { return &field.values()[std::size_t(field.find(weights.field().code(block)))]; };
-  const auto isSettled = [&](std::size_t block, const float* greatest)
+  const auto isSettled = [&](std::size_t block, const BlockGroups& groups, const float* greatest)
   {
     const float* const values = valuesOf(block);
     std::size_t n = 0;
-    while (n < BlockPoints && (greatest[n] - Margin <= values[n] || weights.at(block + n) == 0.0f))
+    while (n < groups.points() && (greatest[n] - Margin <= values[groups.point(n)] || weights.at(block + groups.point(n)) == 0.0f))
     {
       ++n;
     }
-    return n == BlockPoints;
+    return n == groups.points();
   };
-  const auto raise = [&](std::size_t block, const float* least)
+  const auto raise = [&](std::size_t block, const BlockGroups& groups, const float* least)
   {
     float* const values = valuesOf(block);
-    const float* const bound = least + std::size_t(backgroundVotes) * BlockPoints;
-    for (std::size_t n = 0; n < BlockPoints; ++n)
+    const float* const bound = least + std::size_t(backgroundVotes) * FieldViews::BlockPoints;
+    for (std::size_t n = 0; n < groups.points(); ++n)
     {
-      values[n] += weights.at(block + n) * std::max(0.0f, bound[n] - Margin - values[n]);
+      const std::size_t point = groups.point(n);
+      values[point] += weights.at(block + point) * std::max(0.0f, bound[n] - Margin - values[point]);
     }
   };
   forLeastDistances(weights.field(), views, backgroundVotes + 1, concerns, isSettled, raise, execution);

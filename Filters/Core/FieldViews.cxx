@@ -10,7 +10,6 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <optional>
 
 namespace silhouette
 {
@@ -18,6 +17,7 @@ namespace
 {
 
 constexpr int Points = int(FieldViews::BlockPoints);
+constexpr std::size_t GroupPoints = BlockGroups::Points;
 
 /** Steps from a block's lowest point to its points, in Morton order. */
 struct BlockOffsets
@@ -63,23 +63,29 @@ struct BlockProjection
   }
 };
 
-/** Where the points of a block fall, px from where its lowest one does. */
+/** Where the points of some of a block's groups fall, px from where its lowest point does: one group's after another's, as in all that is told of them. */
 struct BlockPlaces
 {
   float u[Points], v[Points], octantsPerPixel[Points];
 };
 
-SILHOUETTE_VECTORISED void placeBlock(const BlockProjection& block, const BlockOffsets& offsets, BlockPlaces& places)
+SILHOUETTE_VECTORISED void placeBlock(const BlockProjection& block, const BlockOffsets& offsets, const BlockGroups& groups, BlockPlaces& places)
 {
   const auto octantsPerPixel = float(block.octantsPerPixel);
-  for (int n = 0; n < Points; ++n)
+  for (std::size_t m = 0; m < groups.size(); ++m)
   {
-    const float i = offsets.i[n], j = offsets.j[n], k = offsets.k[n];
-    const float depth = 1.0f + ((block.stepDepth[0] * i + block.stepDepth[1] * j) + block.stepDepth[2] * k);
-    const float inverse = 1.0f / depth;
-    places.u[n] = ((block.stepU[0] * i + block.stepU[1] * j) + block.stepU[2] * k) * inverse;
-    places.v[n] = ((block.stepV[0] * i + block.stepV[1] * j) + block.stepV[2] * k) * inverse;
-    places.octantsPerPixel[n] = octantsPerPixel * depth;
+    const std::size_t first = groups.first(m);
+    const float *const is = offsets.i + first, *const js = offsets.j + first, *const ks = offsets.k + first;
+    float *const u = places.u + m * GroupPoints, *const v = places.v + m * GroupPoints, *const scale = places.octantsPerPixel + m * GroupPoints;
+    for (std::size_t n = 0; n < GroupPoints; ++n)
+    {
+      const float i = is[n], j = js[n], k = ks[n];
+      const float depth = 1.0f + ((block.stepDepth[0] * i + block.stepDepth[1] * j) + block.stepDepth[2] * k);
+      const float inverse = 1.0f / depth;
+      u[n] = ((block.stepU[0] * i + block.stepU[1] * j) + block.stepU[2] * k) * inverse;
+      v[n] = ((block.stepV[0] * i + block.stepV[1] * j) + block.stepV[2] * k) * inverse;
+      scale[n] = octantsPerPixel * depth;
+    }
   }
 }
 
@@ -133,9 +139,9 @@ struct SampleFrame
 };
 
 /** Places that rounding carries beyond the samples take the last ones. */
-SILHOUETTE_VECTORISED void findSamples(const BlockPlaces& places, const SampleFrame& frame, BlockSamples& samples)
+SILHOUETTE_VECTORISED void findSamples(const BlockPlaces& places, int points, const SampleFrame& frame, BlockSamples& samples)
 {
-  for (int n = 0; n < Points; ++n)
+  for (int n = 0; n < points; ++n)
   {
     const float across = frame.x + places.u[n] * frame.samplesPerPixel, down = frame.y + places.v[n] * frame.samplesPerPixel;
     const auto anyColumn = std::int32_t(across), anyRow = std::int32_t(down);
@@ -149,9 +155,9 @@ SILHOUETTE_VECTORISED void findSamples(const BlockPlaces& places, const SampleFr
   }
 }
 
-SILHOUETTE_VECTORISED void interpolateBlock(const BlockSamples& samples, const BlockPlaces& places, float reach, float* inside)
+SILHOUETTE_VECTORISED void interpolateBlock(const BlockSamples& samples, const BlockPlaces& places, int points, float reach, float* inside)
 {
-  for (int n = 0; n < Points; ++n)
+  for (int n = 0; n < points; ++n)
   {
     const float s = samples.s[n], t = samples.t[n];
     const float pixels = (samples.upper[2 * n] * (1 - s) + samples.upper[2 * n + 1] * s) * (1 - t) +
@@ -170,22 +176,21 @@ bool hasSamplesAround(const DistanceMap& map, const FieldViews::Region& region)
     map.pieces.size() <= std::size_t(std::numeric_limits<std::int32_t>::max());
 }
 
-void insideOfSamples(
-  const DistanceMap& map, const FieldViews::Region& region, const BlockProjection& block, const BlockPlaces& places, float reach, float* inside)
+void insideOfSamples(const DistanceMap& map, const FieldViews::Region& region, const BlockProjection& block, const BlockPlaces& places, int points, float reach, float* inside)
 {
   const int column = int((region.firstU - map.left) * map.samplesPerPixel), row = int((region.firstV - map.top) * map.samplesPerPixel);
   const double x = (block.u - map.left) * map.samplesPerPixel - column, y = (block.v - map.top) * map.samplesPerPixel - row;
   BlockSamples samples;
-  findSamples(places,
+  findSamples(places, points,
     { float(x), float(y), float(map.samplesPerPixel), column, row, map.columns - 2 - column, map.rows - 2 - row, map.across }, samples);
   const float* const values = map.values.data();
-  for (int n = 0; n < Points; ++n)
+  for (int n = 0; n < points; ++n)
   {
     const std::uint32_t* const piece = &map.pieces[std::size_t(samples.piece[n])];
     std::memcpy(&samples.upper[2 * n], values + piece[0] + samples.within[n], 2 * sizeof(float));
     std::memcpy(&samples.lower[2 * n], values + piece[map.across] + samples.within[n], 2 * sizeof(float));
   }
-  interpolateBlock(samples, places, reach, inside);
+  interpolateBlock(samples, places, points, reach, inside);
 }
 
 } // namespace
@@ -304,27 +309,20 @@ FieldViews::Region FieldViews::region(int view, const LatticePoint& lowest, int 
 }
 
 void FieldViews::insideBlock(
-  int view, const LatticePoint& lowest, const Region& region, std::initializer_list<BlockQuestion> questions) const
+  int view, const LatticePoint& lowest, const Region& region, const BlockGroups& groups, const DistanceMap& map, float* inside) const
 {
   static const BlockOffsets offsets;
-  BlockPlaces places;
-  std::optional<BlockProjection> block;
-  if (region.octantsPerPixel > 0.0)
+  if (region.octantsPerPixel > 0.0 && hasSamplesAround(map, region))
   {
-    block.emplace(this->OnLattice[view], lowest, this->DepthScale[view]);
-    placeBlock(*block, offsets, places);
+    const BlockProjection block(this->OnLattice[view], lowest, this->DepthScale[view]);
+    BlockPlaces places;
+    placeBlock(block, offsets, groups, places);
+    insideOfSamples(map, region, block, places, int(groups.points()), float(this->Reach), inside);
+    return;
   }
-  for (const auto& [map, inside] : questions)
+  for (std::size_t n = 0; n < groups.points(); ++n)
   {
-    if (block && hasSamplesAround(map, region))
-    {
-      insideOfSamples(map, region, *block, places, float(this->Reach), inside);
-      continue;
-    }
-    for (int n = 0; n < Points; ++n)
-    {
-      inside[n] = this->inside(map, this->place(view, lowest + fromMorton(std::uint64_t(n))));
-    }
+    inside[n] = this->inside(map, this->place(view, lowest + fromMorton(groups.point(n))));
   }
 }
 

@@ -4,11 +4,11 @@
  */
 #pragma once
 
+#include "BlockGroups.h"
 #include "DistanceMap.h"
 #include "OutlineRendering.h"
 #include "PreparedViews.h"
 
-#include <initializer_list>
 #include <vector>
 
 namespace silhouette
@@ -80,14 +80,10 @@ public:
     double firstU, lastU, firstV, lastV, octantsPerPixel;
   };
   Region region(int view, const LatticePoint& lowest, int size) const;
-  /** A map of a view's image, and where to write the values of a block's points, BlockPoints of them in Morton order. */
-  struct BlockQuestion
-  {
-    const DistanceMap& map;
-    float* inside;
-  };
-  /** inside() of the places of a block's points, to 1e-4 octants, in each of some maps of the view. `region` is that of the block. */
-  void insideBlock(int view, const LatticePoint& lowest, const Region& region, std::initializer_list<BlockQuestion> questions) const;
+  /**
+   * inside() of the places of the points of some groups of a block, to 1e-4 octants, in a map of the view: one group's after another's. `region` is that of the block.
+   */
+  void insideBlock(int view, const LatticePoint& lowest, const Region& region, const BlockGroups& groups, const DistanceMap& map, float* inside) const;
   /** insideBlock() of this region and map comes soon: what it reads may be fetched meanwhile. */
   void fetch(const DistanceMap& map, const Region& region) const;
   /** Is inside() the whole reach for all points of a region? May say no where it is. */

@@ -6,10 +6,9 @@
 namespace silhouette
 {
 
-SILHOUETTE_VECTORISED void keepLeast(float* distances, float* least, int rank)
+SILHOUETTE_VECTORISED void keepLeast(float* distances, std::size_t points, float* least, int rank)
 {
-  constexpr std::size_t points = FieldViews::BlockPoints;
-  for (int k = 0; k < rank; ++k, least += points)
+  for (int k = 0; k < rank; ++k, least += FieldViews::BlockPoints)
   {
     for (std::size_t n = 0; n < points; ++n)
     {

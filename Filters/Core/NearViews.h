@@ -43,8 +43,8 @@ inline void findNear(const FieldViews& views, const LatticePoint& lowest, int si
 }
 
 /**
- * Call `work(block, near)` for each block of FieldViews::BlockPoints of the field's for which `concerns(block)` holds, perhaps side by side, with its first
- * point's index and the views that have to be asked there, ascending; `makeWork()` makes the work of each range of bricks. Views that are far from a brick are
+ * Call `work(block, groups, near)` for each block of FieldViews::BlockPoints of the field's of which `concerns(block)` names any groups, perhaps side by side, with its first
+ * point's index, these groups and the views that have to be asked there, ascending; `makeWork()` makes the work of each range of bricks. Views that are far from a brick are
  * far from all of its blocks, and are not asked about them.
  */
 template <typename Concerns, typename MakeWork>
@@ -64,7 +64,8 @@ void forBlocks(const BrickField& field, const FieldViews& views, const std::vect
         bool isBrickKnown = false;
         for (std::size_t block = brick * BrickField::BrickPoints; block < (brick + 1) * BrickField::BrickPoints; block += FieldViews::BlockPoints)
         {
-          if (!concerns(block))
+          const BlockGroups groups = concerns(block);
+          if (groups.empty())
           {
             continue;
           }
@@ -76,7 +77,7 @@ void forBlocks(const BrickField& field, const FieldViews& views, const std::vect
             isBrickKnown = true;
           }
           findNear(views, fromMorton(field.code(block)), FieldViews::BlockSize, nearBrick, maps, near);
-          work(block, near);
+          work(block, groups, near);
         }
       }
     });

@@ -231,10 +231,11 @@ TEST(FieldViews, OfABlockItIsThatOfEachPoint)
       {
         float inside[FieldViews::BlockPoints];
         const auto region = fieldViews.region(view, lowest, FieldViews::BlockSize);
-        fieldViews.insideBlock(view, lowest, region, { { fieldViews.observed(view), inside } });
-        for (std::size_t n = 0; n < FieldViews::BlockPoints; ++n)
+        const BlockGroups groups(std::uint8_t(37 * block + 11 * view + 1)); // of any kind, none among them
+        fieldViews.insideBlock(view, lowest, region, groups, fieldViews.observed(view), inside);
+        for (std::size_t n = 0; n < groups.points(); ++n)
         {
-          const auto place = fieldViews.place(view, lowest + fromMorton(n));
+          const auto place = fieldViews.place(view, lowest + fromMorton(groups.point(n)));
           ASSERT_NEAR(inside[n], fieldViews.inside(fieldViews.observed(view), place), 1e-4) << block << " " << view << " " << n;
           between += std::abs(inside[n]) < 4.0f;
         }
@@ -284,7 +285,7 @@ TEST(FieldViews, OfABlockBesideTheCamera)
       {
         float inside[FieldViews::BlockPoints];
         fieldViews.insideBlock(
-          view, lowest, fieldViews.region(view, lowest, FieldViews::BlockSize), { { fieldViews.observed(view), inside } });
+          view, lowest, fieldViews.region(view, lowest, FieldViews::BlockSize), BlockGroups::all(), fieldViews.observed(view), inside);
         for (std::size_t n = 0; n < FieldViews::BlockPoints; ++n)
         {
           const float expected = fieldViews.inside(fieldViews.observed(view), fieldViews.place(view, lowest + fromMorton(n)));

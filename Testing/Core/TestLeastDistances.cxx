@@ -35,14 +35,14 @@ TEST(LeastDistances, AreKeptInTheirOrder)
         distances[n] = float(random.below(8)); // equal ones among them
         all[n].push_back(distances[n]);
       }
-      keepLeast(distances, kept.data(), rank);
+      keepLeast(distances, Points - 8, kept.data(), rank);
     }
     for (std::size_t n = 0; n < Points; ++n)
     {
       std::sort(all[n].begin(), all[n].end());
       for (int k = 0; k < rank; ++k)
       {
-        EXPECT_EQ(kept[k * Points + n], all[n][k]) << rank << " " << n;
+        EXPECT_EQ(kept[k * Points + n], n < Points - 8 ? all[n][k] : 9.0f) << rank << " " << n;
       }
     }
   }
@@ -69,15 +69,18 @@ TEST(LeastDistances, AreThoseOfTheViewsThatAreLeastAndOutsideOnTheBorder)
   const BrickField field(lattice, cells, 0, execution);
   const int rank = 3;
   std::vector<float> taken(rank * field.size(), -100.0f);
-  const auto concerns = [](std::size_t block) { return block / Points % 3 != 1; };
+  const auto concerns = [](std::size_t block) { return BlockGroups(std::uint8_t(block / Points * 37)); }; // any groups; none of some blocks
   ThreadedExecution threads(3);
-  const auto never = [](std::size_t, const float*) { return false; };
+  const auto never = [](std::size_t, const BlockGroups&, const float*) { return false; };
   forLeastDistances(field, seen, rank, concerns, never,
-    [&](std::size_t block, const float* least)
+    [&](std::size_t block, const BlockGroups& groups, const float* least)
     {
       for (int k = 0; k < rank; ++k)
       {
-        std::copy_n(least + k * Points, Points, &taken[k * field.size() + block]);
+        for (std::size_t n = 0; n < groups.points(); ++n)
+        {
+          taken[k * field.size() + block + groups.point(n)] = least[k * Points + n];
+        }
       }
     },
     threads);
@@ -91,10 +94,17 @@ TEST(LeastDistances, AreThoseOfTheViewsThatAreLeastAndOutsideOnTheBorder)
       distances.push_back(seen.inside(seen.observed(view), seen.place(view, p)));
     }
     std::sort(distances.begin(), distances.end());
+    const std::size_t block = n / Points * Points;
+    const BlockGroups groups = concerns(block);
+    bool isAsked = false;
+    for (std::size_t m = 0; m < groups.size(); ++m)
+    {
+      isAsked = isAsked || groups.first(m) == (n - block) / 8 * 8;
+    }
     for (int k = 0; k < rank; ++k)
     {
       const float value = taken[k * field.size() + n];
-      if (!concerns(n / Points * Points))
+      if (!isAsked)
       {
         EXPECT_EQ(value, -100.0f);
       }
@@ -135,13 +145,13 @@ TEST(LeastDistances, NoFurtherViewIsAskedAboutWhatIsSettled)
   const BrickField field(lattice, cells, 0, execution);
   std::vector<float> exact(field.size()), bounds(field.size());
   const auto into = [](std::vector<float>& values)
-  { return [&values](std::size_t block, const float* least) { std::copy_n(least, Points, &values[block]); }; };
-  const auto isAny = [](std::size_t) { return true; };
+  { return [&values](std::size_t block, const BlockGroups&, const float* least) { std::copy_n(least, Points, &values[block]); }; };
+  const auto isAny = [](std::size_t) { return BlockGroups::all(); };
   int asked = 0;
-  forLeastDistances(field, seen, 1, isAny, [&](std::size_t, const float*) { return ++asked < 0; }, into(exact), execution);
+  forLeastDistances(field, seen, 1, isAny, [&](std::size_t, const BlockGroups&, const float*) { return ++asked < 0; }, into(exact), execution);
   const int whole = asked;
   asked = 0;
-  const auto isNegative = [&](std::size_t, const float* greatest)
+  const auto isNegative = [&](std::size_t, const BlockGroups&, const float* greatest)
   {
     ++asked;
     return std::all_of(greatest, greatest + Points, [](float value) { return value <= 0.0f; });
