@@ -22,11 +22,17 @@ void check(const Piece& piece)
   }
 }
 
-/** What each tree will cost: octants of the coarse surface, and a little for the tree itself. */
-std::vector<std::uint64_t> weighTrees(const Octree& coarse)
+} // namespace
+
+std::vector<std::uint64_t> weighTrees(const LatticeViews& views, int backgroundVotes, Execution& execution)
 {
+  Lattice lattice = views.lattice();
+  lattice.depth = std::min(lattice.depth, CoarseDepth);
+  CarveOptions options;
+  options.backgroundVotes = backgroundVotes;
+  const Octree coarse = carve(LatticeViews(views.prepared(), lattice), options, execution);
   const Generation& last = coarse.last();
-  const int below = 3 * (coarse.lattice.depth - coarse.treeGeneration);
+  const int below = 3 * (lattice.depth - coarse.treeGeneration);
   std::vector<std::uint64_t> weights(std::size_t(1) << 3 * coarse.treeGeneration, 1);
   for (std::size_t i = 0; i < last.size(); ++i)
   {
@@ -35,17 +41,9 @@ std::vector<std::uint64_t> weighTrees(const Octree& coarse)
   return weights;
 }
 
-} // namespace
-
-std::vector<std::uint64_t> treesOfPiece(
-  const LatticeViews& views, int backgroundVotes, const Piece& piece, Execution& execution)
+std::vector<std::uint64_t> treesOfPiece(const std::vector<std::uint64_t>& weights, const Piece& piece)
 {
   check(piece);
-  Lattice lattice = views.lattice();
-  lattice.depth = std::min(lattice.depth, CoarseDepth);
-  CarveOptions options;
-  options.backgroundVotes = backgroundVotes;
-  const auto weights = weighTrees(carve(LatticeViews(views.prepared(), lattice), options, execution));
   const std::uint64_t whole = std::accumulate(weights.begin(), weights.end(), std::uint64_t(0));
   std::vector<std::uint64_t> trees;
   std::uint64_t before = 0;

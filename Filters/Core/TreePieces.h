@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Pieces of an octree: its trees divided among machines, or carved one after another to bound the memory. Every piece
- * knows its trees from the views alone, without asking the others; and since corners, edges and vertices are
+ * Pieces of an octree: its trees divided among machines, or carved one after another to bound the memory. Every piece's trees
+ * are known from the views alone, without asking the others; and since corners, edges and vertices are
  * computed from their lattice coordinates alone, surfaces of the pieces fit together without ghost octants.
  */
 #pragma once
@@ -24,14 +24,17 @@ struct Piece
 };
 
 /**
- * The trees of a piece: Morton codes within the generation of the tree roots, ascending; empty where there are more
- * pieces than work. All pieces together have each tree once, and a piece's trees follow those of the piece before.
- * The trees are weighed by the octants that a coarse carve, of generation 6 at most, leaves on the surface. Throws
- * InvalidInput for a piece out of range or what carve() does not take, NothingSurvives where the coarse carve leaves
- * nothing, Cancelled. Cost: that of the coarse carve, the same for every piece.
+ * What each tree of an octree will cost, about: octants that a coarse carve, of generation 6 at most, leaves on its surface, and a little for the tree itself. Of no
+ * meaning but to treesOfPiece(). Throws what carve() throws, NothingSurvives where the coarse carve leaves nothing. Cost: that of the coarse carve.
  */
-std::vector<std::uint64_t> treesOfPiece(
-  const LatticeViews& views, int backgroundVotes, const Piece& piece, Execution& execution);
+std::vector<std::uint64_t> weighTrees(const LatticeViews& views, int backgroundVotes, Execution& execution);
+
+/**
+ * The trees of a piece: Morton codes within the generation of the tree roots, ascending; empty where there are more
+ * pieces than work. All pieces together have each tree once, and a piece's trees follow those of the piece before. Throws
+ * InvalidInput for a piece out of range.
+ */
+std::vector<std::uint64_t> treesOfPiece(const std::vector<std::uint64_t>& weights, const Piece& piece);
 
 /** The octree with the given trees alone (ascending); its statistics stay those of the whole. Cost: linear in what is left. */
 Octree selectTrees(const Octree& octree, const std::vector<std::uint64_t>& trees);

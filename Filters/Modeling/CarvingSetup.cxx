@@ -199,24 +199,26 @@ CarveStatistics noStatistics(const LatticeViews& views)
   return statistics;
 }
 
-/** The trees of a piece. */
-Octree carvePiece(const LatticeViews& views, int backgroundVotes, const Piece& piece, Execution& execution)
+Octree carveWhole(const LatticeViews& views, int backgroundVotes, Execution& execution)
 {
   CarveOptions options;
   options.backgroundVotes = backgroundVotes;
-  if (piece.count == 1)
+  return carve(views, options, execution);
+}
+
+/** The trees of a piece. */
+Octree carvePiece(const FoundWhole& whole, const Piece& piece, Execution& execution)
+{
+  const LatticeViews views(*whole.used.views, whole.lattice);
+  CarveOptions options;
+  options.backgroundVotes = whole.backgroundVotes;
+  options.trees = treesOfPiece(whole.weights, piece);
+  if (!options.trees.empty())
   {
     return carve(views, options, execution);
   }
-  Phase dividing(execution, 0.0, 0.2);
-  options.trees = treesOfPiece(views, backgroundVotes, piece, dividing);
-  Phase carving(execution, 0.2, 1.0);
-  if (!options.trees.empty())
-  {
-    return carve(views, options, carving);
-  }
   options.trees = {0}; // more pieces than work: an octree with everything but octants
-  Octree empty = selectTrees(carve(views, options, carving), {});
+  Octree empty = selectTrees(carve(views, options, execution), {});
   empty.statistics = noStatistics(views);
   return empty;
 }
@@ -340,31 +342,31 @@ std::vector<std::string> latticeWarnings(const PreparedViews& views, const Latti
   return warnings;
 }
 
-bool FoundTolerance::isFor(const SharedViews& views, const LatticeSettings& others) const
+bool FoundWhole::isFor(const SharedViews& views, const LatticeSettings& others, bool tolerance) const
 {
   const LatticeSettings& own = this->settings;
   return this->given && this->given == views && own.depth == others.depth && own.leafEdge == others.leafEdge &&
          own.automaticBounds == others.automaticBounds && own.bounds == others.bounds &&
-         own.backgroundVotes == others.backgroundVotes;
+         own.backgroundVotes == others.backgroundVotes && this->automaticTolerance == tolerance;
 }
 
 CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings, bool automaticTolerance,
-                       FoundTolerance& found, const std::function<void(const std::string&)>& warn,
+                       FoundWhole& found, const std::function<void(const std::string&)>& warn,
                        Execution& execution)
 {
   const bool isLater = settings.piece.number > 0;
-  if (automaticTolerance && isLater && found.isFor(views, settings))
+  if (isLater && found.isFor(views, settings, automaticTolerance))
   {
-    CarvedViews carved{found.used, {}};
-    const LatticeViews latticeViews(*carved.views, found.lattice);
-    carved.octree = carvePiece(latticeViews, found.backgroundVotes, settings.piece, execution);
-    carved.octree.statistics = noStatistics(latticeViews); // the whole's count once
+    CarvedViews carved{found.used, carvePiece(found, settings.piece, execution)};
+    if (automaticTolerance)
+    {
+      carved.octree.statistics = noStatistics({*carved.views, found.lattice}); // the whole's count once
+    }
     return carved;
   }
   bool warned = false;
-  const Carve carveOnce = [&](const PreparedViews& used, int backgroundVotes, Execution& part)
+  const auto findLattice = [&](const PreparedViews& used, int backgroundVotes, Execution& bounding)
   {
-    Phase bounding(part, 0.0, 0.25);
     LatticeSettings own = settings;
     own.backgroundVotes = backgroundVotes;
     const auto tell = [&](const std::vector<std::string>& warnings) { std::for_each(warnings.begin(), warnings.end(), warn); };
@@ -378,30 +380,49 @@ CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings
       tell(latticeWarnings(used, lattice, settings.automaticBounds));
     }
     warned = true;
-    Phase carving(part, 0.25, 1.0);
-    const Piece piece = automaticTolerance ? Piece() : settings.piece;
-    return carvePiece(LatticeViews(used, lattice), backgroundVotes, piece, carving);
+    return lattice;
   };
-  found = FoundTolerance();
+  const Carve carveOnce = [&](const PreparedViews& used, int backgroundVotes, Execution& part)
+  {
+    Phase bounding(part, 0.0, 0.25);
+    const Lattice lattice = findLattice(used, backgroundVotes, bounding);
+    Phase carving(part, 0.25, 1.0);
+    return carveWhole({used, lattice}, backgroundVotes, carving);
+  };
+  found = FoundWhole();
+  if (settings.piece.count == 1)
+  {
+    return automaticTolerance ? carveWithTolerance(views, settings, carveOnce, warn, execution)
+                              : CarvedViews{UsedViews{views, {}, 0, {}, {}}, carveOnce(*views, settings.backgroundVotes, execution)};
+  }
+  FoundWhole whole{views, settings, automaticTolerance, UsedViews{views, {}, 0, {}, {}}, {}, settings.backgroundVotes, {}};
   CarvedViews carved;
-  if (!automaticTolerance)
+  Phase finding(execution, 0.0, 0.2);
+  if (automaticTolerance)
   {
-    carved.octree = carveOnce(*views, settings.backgroundVotes, execution);
-    carved.views = views;
-    return carved;
+    carved = carveWithTolerance(views, settings, carveOnce, warn, finding);
+    whole.used = carved;
+    whole.lattice = carved.octree.lattice;
+    whole.backgroundVotes = carved.octree.backgroundVotes;
   }
-  carved = carveWithTolerance(views, settings, carveOnce, warn, execution);
-  if (settings.piece.count > 1)
+  else
   {
-    found = {views, settings, carved, carved.octree.lattice, carved.octree.backgroundVotes};
-    const LatticeViews latticeViews(*carved.views, carved.octree.lattice);
-    carved.octree = selectTrees(
-        carved.octree, treesOfPiece(latticeViews, carved.octree.backgroundVotes, settings.piece, execution));
-    if (isLater)
-    {
-      carved.octree.statistics = noStatistics(latticeViews);
-    }
+    whole.lattice = findLattice(*views, settings.backgroundVotes, finding);
   }
+  const LatticeViews latticeViews(*whole.used.views, whole.lattice);
+  Phase weighing(execution, 0.2, 0.3);
+  whole.weights = weighTrees(latticeViews, whole.backgroundVotes, weighing);
+  if (automaticTolerance)
+  {
+    carved.octree = selectTrees(carved.octree, treesOfPiece(whole.weights, settings.piece));
+    carved.octree.statistics = isLater ? noStatistics(latticeViews) : carved.octree.statistics;
+  }
+  else
+  {
+    Phase carving(execution, 0.3, 1.0);
+    carved = {whole.used, carvePiece(whole, settings.piece, carving)};
+  }
+  found = std::move(whole);
   return carved;
 }
 

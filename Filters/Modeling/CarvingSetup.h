@@ -10,6 +10,7 @@
 #include "TreePieces.h"
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -55,16 +56,18 @@ struct CarvedViews : UsedViews
   Octree octree;
 };
 
-/** What an automatic tolerance came to, for the pieces that come later. */
-struct FoundTolerance
+/** What was found for the whole, for the pieces that come later. */
+struct FoundWhole
 {
   SharedViews given; ///< for these views, null for none,
   LatticeSettings settings; ///< and these settings, whatever their piece
+  bool automaticTolerance = false;
   UsedViews used;
   Lattice lattice;
   int backgroundVotes = 0;
+  std::vector<std::uint64_t> weights; ///< of the trees (TreePieces.h)
 
-  bool isFor(const SharedViews& views, const LatticeSettings& others) const;
+  bool isFor(const SharedViews& views, const LatticeSettings& others, bool tolerance) const;
 };
 
 /**
@@ -72,10 +75,11 @@ struct FoundTolerance
  * votes, or dilated silhouettes, are taken where the silhouettes are not covered (CarvingTolerance.h). What
  * views and lattice deserve as warnings goes to `warn`, before carving, and the views' before the bounds are found: where nothing
  * survives, or nothing bounds the object, these say why. Of a piece its own trees alone are carved; with `automaticTolerance` the whole is carved first, since
- * the tolerance is the whole's. What it came to is left in `found`, where it serves the pieces after the first.
+ * the tolerance is the whole's. What the whole came to, its lattice, division and tolerance, is left in `found`, where it serves the pieces after the first: they find and warn of
+ * nothing again.
  */
 CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings, bool automaticTolerance,
-                       FoundTolerance& found, const std::function<void(const std::string&)>& warn,
+                       FoundWhole& found, const std::function<void(const std::string&)>& warn,
                        Execution& execution);
 
 /** A warning where the object reaches through the root cube's border; empty where it does not. */

@@ -29,7 +29,7 @@ class vtkSilhouetteOctreeSource::vtkInternals
 {
 public:
   std::vector<ImageView> Added;
-  FoundTolerance Tolerance; ///< what the last whole left for the pieces after it
+  FoundWhole Found; ///< what the last piece left for those after it
 
   /** The views of the input, then those added. */
   std::vector<ImageView> views(vtkPartitionedDataSetCollection* input) const
@@ -315,7 +315,7 @@ int vtkSilhouetteOctreeSource::RequestData(vtkInformation* request, vtkInformati
     const auto warn = [this](const std::string& text)
     { vtkWarningMacro(<< text); };
     CarvedViews carved =
-        carveViews(views, settings, this->AutomaticTolerance, this->Internals->Tolerance, warn, carving);
+        carveViews(views, settings, this->AutomaticTolerance, this->Internals->Found, warn, carving);
     const std::string cut =
         cutByBoxWarning(carved.octree, silhouette::LatticeViews(*carved.views, carved.octree.lattice));
     if (!cut.empty())

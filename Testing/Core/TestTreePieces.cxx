@@ -59,13 +59,13 @@ TEST(TreePieces, HaveEveryTreeOnceAndInOrder)
   const PreparedViews views = torusViews();
   for (const int depth : { 1, 2, 3, 5, 8 })
   {
-    const LatticeViews latticeViews(views, { unitCube(), depth });
+    const auto weights = weighTrees({ views, { unitCube(), depth } }, 0, execution);
     for (const int count : { 1, 2, 3, 8, 20 })
     {
       std::vector<std::uint64_t> all;
       for (int number = 0; number < count; ++number)
       {
-        const auto trees = treesOfPiece(latticeViews, 0, { number, count }, execution);
+        const auto trees = treesOfPiece(weights, { number, count });
         all.insert(all.end(), trees.begin(), trees.end());
       }
       std::vector<std::uint64_t> expected(std::size_t(1) << 3 * treeGeneration(depth));
@@ -81,11 +81,12 @@ TEST(TreePieces, AreOfLikeCost)
   const PreparedViews prepared = torusViews();
   const LatticeViews latticeViews(prepared, { unitCube(), 7 });
   const std::size_t whole = carveViews(prepared, unitCube(), 7).count(OctantState::Intersection, 7);
+  const auto weights = weighTrees(latticeViews, 0, execution);
   for (const int count : { 2, 3, 8 })
   {
     for (int number = 0; number < count; ++number)
     {
-      const auto part = carvePiece(latticeViews, treesOfPiece(latticeViews, 0, { number, count }, execution));
+      const auto part = carvePiece(latticeViews, treesOfPiece(weights, { number, count }));
       const double share = double(count) * double(part.count(OctantState::Intersection, 7)) / double(whole);
       EXPECT_GT(share, 0.6) << number << " of " << count;
       EXPECT_LT(share, 1.4) << number << " of " << count;
@@ -106,6 +107,7 @@ TEST(TreePieces, AddUpToTheWholeOctreeAndItsSurface)
     options.share = 1.0 - k / 12.0;
     options.edges = edges;
     const VotingSurface surface = votingMarchingCubes(whole, views, options, execution);
+    const auto weights = weighTrees(latticeViews, k, execution);
     for (const int count : { 1, 2, 3, 8 })
     {
       std::vector<Octree> parts;
@@ -114,7 +116,7 @@ TEST(TreePieces, AddUpToTheWholeOctreeAndItsSurface)
       std::uint64_t lost = 0;
       for (int number = 0; number < count; ++number)
       {
-        const auto trees = treesOfPiece(latticeViews, k, { number, count }, execution);
+        const auto trees = treesOfPiece(weights, { number, count });
         parts.push_back(carvePiece(latticeViews, trees, k));
         EXPECT_TRUE(sameOctants(parts.back(), selectTrees(whole, trees)));
         auto part = votingMarchingCubes(parts.back(), views, options, execution);
@@ -185,9 +187,9 @@ TEST(TreePieces, RefuseWhatIsOutOfRangeAndCanBeCancelled)
   const LatticeViews latticeViews(views, { unitCube(), 5 });
   for (const Piece piece : { Piece{ -1, 2 }, Piece{ 2, 2 }, Piece{ 0, 0 } })
   {
-    EXPECT_THROW(treesOfPiece(latticeViews, 0, piece, execution), InvalidInput);
+    EXPECT_THROW(treesOfPiece(weighTrees(latticeViews, 0, execution), piece), InvalidInput);
     EXPECT_THROW(rangeOfPiece(5, piece), InvalidInput);
   }
   CancelledExecution cancelled;
-  EXPECT_THROW(treesOfPiece(latticeViews, 0, {}, cancelled), Cancelled);
+  EXPECT_THROW(weighTrees(latticeViews, 0, cancelled), Cancelled);
 }

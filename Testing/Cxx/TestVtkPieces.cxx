@@ -380,39 +380,49 @@ TEST(VtkPieces, WithAutomaticToleranceAddUpToo)
   EXPECT_EQ(tested, field(whole.octree->GetOutput(), "OctantsTested"));
 }
 
-TEST(VtkPieces, OfATolerantOctreeAreTheSameWhicheverComesFirst)
+class VtkPiecesByTolerance : public testing::TestWithParam<bool>
 {
+};
+
+INSTANTIATE_TEST_SUITE_P(Tolerance, VtkPiecesByTolerance, testing::Bool());
+
+TEST_P(VtkPiecesByTolerance, AreTheSameWhicheverComesFirst)
+{
+  const bool isAutomatic = this->GetParam();
   auto views = ringViews(12);
   auto* image = vtkImageData::SafeDownCast(views->GetPartition(5, 0));
   auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer());
   std::fill_n(pixel, ImageSize * ImageSize / 2, static_cast<unsigned char>(0)); // a view lacks half of the object
-  const auto tolerant = [&](Pipeline& pipeline)
+  const auto setUp = [&](Pipeline& pipeline, int depth)
   {
     pipeline.extractor->SetInputDataObject(views);
-    pipeline.octree->AutomaticToleranceOn();
+    pipeline.octree->SetAutomaticTolerance(isAutomatic);
+    pipeline.octree->SetBackgroundVotes(isAutomatic ? 0 : 1);
+    pipeline.octree->SetDepth(depth);
+    pipeline.cubes->SetShare(11.0 / 12.0);
   };
   Pipeline parts;
-  tolerant(parts);
   for (const int depth : {6, 5, 5}) // the settings change, then one view
   {
-    parts.octree->SetDepth(depth);
+    setUp(parts, depth);
     for (int piece = 0; piece < 3; ++piece)
     {
       Pipeline alone;
-      tolerant(alone);
-      alone.octree->SetDepth(depth);
+      setUp(alone, depth);
       alone.octree->UpdatePiece(piece, 3, 0);
       updatePiece(parts.octree, -1, piece, 3);
-      for (const char* name : {"BackgroundVotes", "Dilation", "UncoveredShare", "StrictUncoveredShare", "OctantsTested",
-                               "ViewTests", "IntersectionOctants", "InsideOctants"})
+      for (const char* name : {"BackgroundVotes", "Dilation", "OctantsTested", "ViewTests", "IntersectionOctants", "InsideOctants"})
       {
         EXPECT_EQ(field(parts.octree->GetOutput(), name), field(alone.octree->GetOutput(), name))
             << name << ", piece " << piece << ", depth " << depth;
       }
-      EXPECT_EQ(field(parts.octree->GetOutput(), "OctantsTested") > 0.0, piece == 0);
+      for (const char* name : {"UncoveredShare", "StrictUncoveredShare"})
+      {
+        EXPECT_EQ(parts.octree->GetOutput()->GetFieldData()->HasArray(name), int(isAutomatic));
+        EXPECT_TRUE(!isAutomatic || field(parts.octree->GetOutput(), name) == field(alone.octree->GetOutput(), name)) << name;
+      }
+      EXPECT_EQ(field(parts.octree->GetOutput(), "OctantsTested") > 0.0, piece == 0 || !isAutomatic);
       EXPECT_GT(field(parts.octree->GetOutput(), "BackgroundVotes"), 0.0);
-      alone.cubes->SetShare(11.0 / 12.0);
-      parts.cubes->SetShare(11.0 / 12.0);
       alone.cubes->UpdatePiece(piece, 3, 0);
       parts.cubes->UpdatePiece(piece, 3, 0);
       EXPECT_EQ(triangles(parts.cubes->GetOutput()), triangles(alone.cubes->GetOutput()));
@@ -421,6 +431,31 @@ TEST(VtkPieces, OfATolerantOctreeAreTheSameWhicheverComesFirst)
     image->Modified();
     views->Modified();
   }
+}
+
+/** Which tells, too, that what is found for the whole is not found again. */
+TEST_P(VtkPiecesByTolerance, WarnOnceAndAgainForOtherSettings)
+{
+  auto views = ringViews(12);
+  auto* image = vtkImageData::SafeDownCast(views->GetPartition(5, 0));
+  std::fill_n(static_cast<unsigned char*>(image->GetScalarPointer()), ImageSize * ImageSize, static_cast<unsigned char>(255));
+  Pipeline parts;
+  parts.extractor->SetInputDataObject(views);
+  parts.octree->SetAutomaticTolerance(this->GetParam());
+  const Listener listener(parts.octree);
+  int expected = 0;
+  for (const double edge : {0.0, 0.1, 0.2})
+  {
+    parts.octree->SetLeafEdge(edge);
+    for (int piece = 0; piece < 4; ++piece)
+    {
+      parts.octree->UpdatePiece(piece, 4, 0);
+    }
+    EXPECT_EQ(listener.warnings("all object"), ++expected);
+  }
+  parts.octree->SetBackgroundVotes(1); // and a later piece of others
+  parts.octree->UpdatePiece(2, 4, 0);
+  EXPECT_EQ(listener.warnings("all object"), ++expected);
 }
 
 TEST(VtkPieces, OfNothingAreAnErrorInEach)
