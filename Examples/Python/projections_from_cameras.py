@@ -231,7 +231,9 @@ def main():
         text = p_list(readers[arguments.format](arguments.cameras), arguments.cameras)
         if arguments.list.exists() and arguments.list.samefile(arguments.cameras):
             raise Refused(f"{arguments.list} is both what is read and what is to be written")
-        arguments.list.write_text(text, encoding="utf-8")
+        whole = arguments.list.with_name(arguments.list.name + ".part")
+        whole.write_text(text, encoding="utf-8")
+        whole.replace(arguments.list)
     except (Refused, OSError, UnicodeDecodeError) as error:
         sys.exit(f"projections_from_cameras.py: {error}")
     print(f"{arguments.list}: {len(text.splitlines())} views")

@@ -91,8 +91,9 @@ class Reconstruct(ProgramTest):
         for words in ("wrote", "jug.ply", "depth 4", "closed, manifold, free of self-intersections", "mean IoU"):
             self.assertIn(words, done.stdout)
         self.assertEqual(done.stderr, "") # a pipe: no bar
-        quiet = self.good("reconstruct", self.capture, "-o", self.folder / "jug.ply", "--depth", 4, "--quiet")
+        quiet = self.good("reconstruct", self.capture, "-o", self.folder / "quiet.ply", "--depth", 4, "--quiet")
         self.assertEqual(quiet.stdout + quiet.stderr, "")
+        self.assertEqual((self.folder / "quiet.ply").read_bytes(), (self.folder / "jug.ply").read_bytes())
 
     def test_same_bytes_for_any_number_of_threads(self):
         files = []

@@ -60,10 +60,13 @@ void Reconstruction::run()
 
   StagedFiles files;
   const vtkSmartPointer<vtkPolyData> stored = this->store(this->Kept, files.add(this->Options.mesh));
-  this->evaluate(stored);
   this->writeOctree(files);
   this->writeImage(stored, files);
-  this->gatherMetrics(stored);
+  if (this->isJudged())
+  {
+    this->evaluate(stored);
+    this->gatherMetrics(stored);
+  }
   if (!this->Options.metrics.empty())
   {
     writeMetrics(this->Found, files.add(this->Options.metrics));
@@ -73,6 +76,11 @@ void Reconstruction::run()
   {
     this->summarise();
   }
+}
+
+bool Reconstruction::isJudged() const
+{
+  return !this->Options.quiet || !this->Options.metrics.empty() || !this->Options.truth.empty();
 }
 
 void Reconstruction::checkOutputs() const

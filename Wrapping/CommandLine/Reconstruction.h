@@ -60,6 +60,8 @@ private:
   vtkPolyData* cubes();
   /** The mesh as the staged file has it. */
   vtkSmartPointer<vtkPolyData> store(vtkPolyData* mesh, const StagedFile& file);
+  /** Does anybody ask what the mesh is like? */
+  bool isJudged() const;
   void evaluate(vtkPolyData* stored);
   void gatherMetrics(vtkPolyData* stored);
   void writeOctree(StagedFiles& files);
