@@ -390,14 +390,17 @@ CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings
     return carveWhole({used, lattice}, backgroundVotes, carving);
   };
   found = FoundWhole();
+  UsedViews asGiven;
+  asGiven.views = views;
   if (settings.piece.count == 1)
   {
     return automaticTolerance ? carveWithTolerance(views, settings, carveOnce, warn, execution)
-                              : CarvedViews{UsedViews{views, {}, 0, {}, {}}, carveOnce(*views, settings.backgroundVotes, execution)};
+                              : CarvedViews{asGiven, carveOnce(*views, settings.backgroundVotes, execution)};
   }
-  FoundWhole whole{views, settings, automaticTolerance, UsedViews{views, {}, 0, {}, {}}, {}, settings.backgroundVotes, {}};
+  FoundWhole whole{views, settings, automaticTolerance, asGiven, {}, settings.backgroundVotes, {}};
   CarvedViews carved;
-  Phase finding(execution, 0.0, 0.2);
+  const double untilFound = automaticTolerance ? 0.9 : 0.2; // of the work; a tolerance is found by carving the whole
+  Phase finding(execution, 0.0, untilFound);
   if (automaticTolerance)
   {
     carved = carveWithTolerance(views, settings, carveOnce, warn, finding);
@@ -410,7 +413,7 @@ CarvedViews carveViews(const SharedViews& views, const LatticeSettings& settings
     whole.lattice = findLattice(*views, settings.backgroundVotes, finding);
   }
   const LatticeViews latticeViews(*whole.used.views, whole.lattice);
-  Phase weighing(execution, 0.2, 0.3);
+  Phase weighing(execution, untilFound, untilFound + 0.1);
   whole.weights = weighTrees(latticeViews, whole.backgroundVotes, weighing);
   if (automaticTolerance)
   {

@@ -308,7 +308,7 @@ class Document(ProjectionsTest):
         (self.folder / "my-capture").mkdir()
         (self.folder / "sparse").symlink_to(".")
         (self.folder / "my-capture" / "transforms.json").symlink_to("../transforms.json")
-        (self.folder / "my-capture" / "projections.txt").symlink_to("../projections.txt")
+        self.list = self.folder / "my-capture" / "projections.txt"
         for script, *arguments in commands:
             subprocess.run([sys.executable, TREE / script, *arguments], cwd=self.folder, check=True,
                            stdout=subprocess.DEVNULL)
