@@ -80,7 +80,7 @@ class TestRanks(unittest.TestCase):
     def check_that_all_fail_alike(self, found):
         for rank, one in enumerate(found):
             self.assertEqual(one["failures"]["mended"], len(one["hulls"]))
-            for name, first, others in (("surfacer", "cover offset 5.0", "cover offset 5.0"),
+            for name, first, others in (("surfacer", "cover offset 5 is", "cover offset 5 is"),
                                         ("octree", "depth 99", "rank 0 could not make")):
                 failure = one["failures"][name]
                 # ParaView may update more than once.

@@ -88,7 +88,7 @@ class Ranks:
         for _, found in self.each("refusals"):
             self.assert_empty(found["failed"], 0)
             self.assertEqual(len(found["errors"]), 1)
-            self.assertIn("cover offset 5.0", found["errors"][0])
+            self.assertIn("cover offset 5 is", found["errors"][0])
             self.assert_made(found["mended"])
 
     def test_inputs_that_fail_are_everybodys(self):
