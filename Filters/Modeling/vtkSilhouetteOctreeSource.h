@@ -48,8 +48,9 @@
  * failed filter again by itself: call Modified() to ask for it.
  *
  * Pieces: asked for piece p of n (vtkAlgorithm::UpdatePiece(), or ParaView's engine on each rank), the source
- * carves the trees of that piece alone, from all views. Every piece finds its trees by a coarse carve of its
- * own, without asking the others. With AutomaticTolerance each piece carves the whole first. That nothing
+ * carves the trees of that piece alone, from all views. It finds these by a coarse carve of its
+ * own, without asking other processes; with AutomaticTolerance the whole is carved first. Piece 0 does so each time; other pieces
+ * take over bounds, division and tolerance from the piece made before with the same views and settings, and give no warning again. That nothing
  * survives is an error where the coarse carve shows it; a piece without survivors is none. The second of
  * 2^31 - 1 pieces, which filters ask for that need nothing, is empty without any view being read.
  *
