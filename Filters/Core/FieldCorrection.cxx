@@ -38,7 +38,8 @@ constexpr double FirstStep = 1.25, LaterStep = 1.6;
 constexpr double SamplesPerOctant = 2.0; ///< of the silhouettes' distances: they are straight but for corners
 constexpr int MostHalvings = 3;          ///< between the lattice of the field and that of the octants
 constexpr double FinestSmoothing = 1.9;  ///< octants of the field's lattice, where contours alone are noisy
-constexpr double FinestAligned = 3.0;    ///< the same where views may have to be aligned
+constexpr double FinestOfFine = 0.7;     ///< the same of a lattice with ThoughtOutAt cells a side and more, whose octants are little of the object
+constexpr double FinestAligned = 3.0;    ///< the same where views may have to be aligned, of any lattice
 constexpr int RefinedMargin = 3;         ///< octants that the field is given around the surface
 
 void check(const FieldCorrectionOptions& options)
@@ -341,11 +342,17 @@ private:
 };
 
 /** Generations by which the field's lattice may be coarser than the surface's, for the smoothing that the deficit calls for. */
-int halvingsFor(double deficit, double finest, const Lengths& lengths, const FieldCorrectionOptions& options)
+int halvingsFor(double deficit, bool mayBeCameras, const Lattice& lattice, const FieldCorrectionOptions& options)
 {
-  double sigma = std::min(options.greatestSmoothing * lengths.proportion, options.smoothing * deficit);
+  const double sigma = std::min(options.greatestSmoothing * Lengths(lattice).proportion, options.smoothing * deficit);
+  const auto isFineEnough = [&](int halvings)
+  {
+    const bool isFine = double(lattice.cells() >> halvings) >= ThoughtOutAt;
+    const double least = mayBeCameras ? FinestAligned : isFine ? FinestOfFine : FinestSmoothing;
+    return sigma >= least * double(1 << halvings);
+  };
   int halvings = 0;
-  for (; halvings < MostHalvings && sigma >= 2.0 * finest; sigma /= 2.0)
+  while (halvings < std::min(MostHalvings, lattice.depth - 1) && isFineEnough(halvings + 1))
   {
     ++halvings;
   }
@@ -363,8 +370,7 @@ struct Survivors
 void correctOnCoarserLattice(const Mesh& surface, const Lattice& lattice, const PreparedViews& views, const FieldCorrectionOptions& options,
   const std::vector<ContourResidual>* residuals, const Survivors& survivors, FieldCorrection& result, Execution& execution)
 {
-  const double finest = residuals ? FinestAligned : FinestSmoothing;
-  const int halvings = std::min(halvingsFor(result.deficit, finest, Lengths(lattice), options), lattice.depth - 1);
+  const int halvings = halvingsFor(result.deficit, residuals != nullptr, lattice, options);
   const Lengths lengths = Lengths(lattice).coarser(halvings);
   FieldViews fieldViews(views, { lattice.root, lattice.depth - halvings }, lengths.reach(), SamplesPerOctant);
   FieldCorrection coarse;
