@@ -226,8 +226,7 @@ void Reconstruct::addRest()
     ->type_name("N")
     ->check(inRange(0, 4096, true))
     ->group(group);
-  this->App->add_flag("-q,--quiet", this->Options.quiet, "No progress bar and no summary, for which, without --metrics and --truth, the "
-                                                                  "mesh is not judged")->group(group);
+  this->App->add_flag("-q,--quiet", this->Options.quiet, "No progress bar and no summary")->group(group);
 }
 
 void Reconstruct::finish()
