@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CarvingTolerance.h"
 
+#include "ParameterRange.h"
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -22,19 +24,13 @@ void check(const PreparedViews& views, const CarvingToleranceOptions& options)
     throw InvalidInput("background votes " + std::to_string(options.backgroundVotes) + " are outside 0 to " +
       std::to_string(views.size() - 1) + " (the number of views less one)");
   }
-  if (!(options.uncoveredShare >= 0.0 && options.uncoveredShare <= 1.0))
-  {
-    throw InvalidInput("uncovered share " + std::to_string(options.uncoveredShare) + " is outside 0 to 1");
-  }
+  requireRange("uncovered share", options.uncoveredShare, 0.0, 1.0);
   if (!(options.voteShare >= 0.0 && options.voteShare < 1.0))
   {
     throw InvalidInput(
-      "share of the views " + std::to_string(options.voteShare) + " is outside 0 to below 1");
+      "share of the views " + numberText(options.voteShare) + " is outside 0 to below 1");
   }
-  if (!(options.greatestDilation >= 0.0 && options.greatestDilation <= GreatestDilation))
-  {
-    throw InvalidInput("dilation " + std::to_string(options.greatestDilation) + " octants is outside 0 to 10");
-  }
+  requireRange("dilation in octants", options.greatestDilation, 0.0, GreatestDilation);
 }
 
 BinaryImage dilated(const PreparedView& view, int radius)

@@ -6,6 +6,7 @@
 #include "EdgeCrossing.h"
 #include "FirstTouch.h"
 #include "LatticeSurface.h"
+#include "ParameterRange.h"
 #include "SubPixelLabels.h"
 
 #include <algorithm>
@@ -85,10 +86,7 @@ std::vector<std::uint8_t> labels(const Lattice& lattice, const CornerShell& shel
 
 int requiredInsideVotes(double share, int views)
 {
-  if (!(share > 0.0) || share > 1.0)
-  {
-    throw InvalidInput("vote share " + std::to_string(share) + " is outside (0, 1]");
-  }
+  requireAboveZero("vote share", share, 1.0);
   return std::max(1, int(std::ceil(share * views - 1e-9)));
 }
 

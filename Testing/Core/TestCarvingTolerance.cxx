@@ -283,13 +283,13 @@ TEST(CarvingTolerance, RefusesOptionsOutOfRange)
   refused(options, "background votes 20 are outside 0 to 19");
   options = {};
   options.uncoveredShare = std::numeric_limits<double>::quiet_NaN();
-  refused(options, "uncovered share");
+  refused(options, "uncovered share nan is outside 0 to 1");
   options = {};
   options.voteShare = 1.0;
-  refused(options, "share of the views 1.000000");
+  refused(options, "share of the views 1 is outside 0 to below 1");
   options = {};
   options.greatestDilation = 10.5;
-  refused(options, "dilation 10.500000 octants is outside 0 to 10");
+  refused(options, "dilation in octants 10.5 is outside 0 to 10");
 }
 
 TEST(CarvingTolerance, CanBeCancelledAndTellsProgressThatNeverFalls)

@@ -258,9 +258,9 @@ TEST(VtkVotingMarchingCubes, RefusesWhatDoesNotBelongTogether)
   expectError(pipeline.surface, {"no views"});
   pipeline.surface->SetViewsConnection(pipeline.octree->GetOutputPort(1));
   pipeline.surface->SetShare(0.0);
-  expectError(pipeline.surface, {"vote share 0", "outside (0, 1]"});
+  expectError(pipeline.surface, {"vote share 0: above 0 and at most 1 is needed"});
   pipeline.surface->SetShare(1.5);
-  expectError(pipeline.surface, {"vote share 1.5"});
+  expectError(pipeline.surface, {"vote share 1.5: above 0 and at most 1 is needed"});
   pipeline.surface->SetShare(1.0);
 
   pipeline.octree->Update();
