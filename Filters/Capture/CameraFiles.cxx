@@ -140,6 +140,7 @@ CameraFile readCameraFile(const std::filesystem::path& file)
   refuseForeign(file);
   std::vector<TextLine> lines = readTextLines(file);
   CameraFile cameras;
+  cameras.files = {file};
   if (isMiddlebury(file, lines))
   {
     cameras.format = CameraFormat::Middlebury;
@@ -155,7 +156,11 @@ CameraFile readCameraFile(const std::filesystem::path& file)
       throw InvalidInput(lineOf(file, line.number) + ": K [R t] of view " + inQuotes(line.tokens[0]) +
                          " is too large to be finite");
     }
-    cameras.views.push_back({line.tokens[0], line.number, projection});
+    NamedProjection view;
+    view.name = line.tokens[0];
+    view.line = line.number;
+    view.projection = projection;
+    cameras.views.push_back(std::move(view));
   }
   if (cameras.views.empty())
   {

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The two camera files that are understood, as text: what they say of each view, before any image is looked
- * for. Numbers are row by row.
+ * The camera files that are understood, as text or numbers: what they say of each view, before any image is looked for.
  *
- * | format | lines | pixel family | sign of w |
- * | --- | --- | --- | --- |
- * | P list | a view: image name, 12 numbers of the 3 x 4 matrix P | integer | free |
- * | Middlebury | number of views; a view: image name, 9 of K, 9 of R, 3 of t | integer | w > 0 in front |
+ * | format | file | what it says of a view | pixel family of the file | sign of w |
+ * | --- | --- | --- | --- | --- |
+ * | P list | `projections.txt`, or any text | image name, 12 numbers of the 3 x 4 matrix P | not stated | free |
+ * | Middlebury | `*_par.txt` | image name, 9 of K, 9 of R, 3 of t; the first line is the number of views | not stated | w > 0 in front |
  *
- * Middlebury's matrix is P = K [R t], camera axes right, down, forward. Neither format states its pixel family:
+ * Middlebury's matrix is P = K [R t], camera axes right, down, forward. Where a format does not state its pixel family
  * integer is the default, CaptureOptions::cornerFamily the choice.
  *
  * Blank lines, `#` comments, Windows line endings and a UTF-8 byte order mark are accepted in both.
  */
 #pragma once
 
+#include "LensDistortion.h"
 #include "View.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,14 +35,19 @@ enum class CameraFormat
 struct NamedProjection
 {
   std::string name; ///< of the image, as in the file
-  int line = 0;     ///< counted from 1
-  Projection projection = Projection::Zero();
+  int line = 0;     ///< counted from 1; 0 where the file has no lines to speak of
+  Projection projection = Projection::Zero(); ///< of the undistorted image; of the integer family where the format states one
+  std::string mask;  ///< the mask's file, where the camera file names one
+  std::optional<LensDistortion> lens; ///< what has to be taken out of the image, where there is any
+  int width = 0;  ///< px of the image that the camera is for; 0 where the file does not say
+  int height = 0;
 };
 
 struct CameraFile
 {
   CameraFormat format = CameraFormat::ProjectionList;
   std::vector<NamedProjection> views; ///< at least one, names differ
+  std::vector<std::filesystem::path> files; ///< all that were read
 };
 
 /**
