@@ -210,7 +210,8 @@ private:
     };
     const auto allAreFar = [far = float(this->Views.reach())](std::size_t, const BlockGroups&, const float* greatest)
     { return std::all_of(greatest, greatest + BlockPoints, [far](float value) { return value <= -far; }); };
-    forLeastDistances(this->Least, this->Views, rank, [](std::size_t) { return BlockGroups::all(); }, allAreFar, take, execution);
+    const auto all = [](std::size_t) { return BlockGroups::all(); };
+    forLeastDistances(this->Least, this->Views, rank, [&] { return BlockQuestions{ all, allAreFar, take }; }, execution);
   }
 
   /** From the least distance to the model, and from the model to where the views agree. */
@@ -262,7 +263,7 @@ private:
     const auto concerns = [&](std::size_t block) { return BlockGroups::where([&](std::size_t n) { return inBand(model[block + n]); }); };
     const auto makeWork = [&]
     {
-      return [&, own = std::vector<float>(maps.size() * BlockPoints)](std::size_t block, const BlockGroups& groups, const std::vector<NearView>& near) mutable
+      const auto agree = [&, own = std::vector<float>(maps.size() * BlockPoints)](std::size_t block, const BlockGroups& groups, const std::vector<NearView>& near) mutable
       {
         const LatticePoint lowest = fromMorton(this->Least.code(block));
         for (std::size_t i = 0; i < near.size(); ++i)
@@ -287,8 +288,9 @@ private:
           }
         }
       };
+      return BlockWork{ concerns, agree };
     };
-    forBlocks(this->Least, this->Views, &maps, concerns, makeWork, execution);
+    forBlocks(this->Least, this->Views, &maps, makeWork, execution);
     this->Least.values().swap(values);
   }
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -272,20 +271,7 @@ std::vector<float> gaussianKernel(double sigma)
 void FieldSmoother::smooth(BrickField& field, double sigma, float most, Execution& execution)
 {
   constexpr double least = 1e-3; // octants: what is narrower leaves every value as it is
-  if (sigma > least)
-  {
-    this->run(field, keepingKernel(sigma), most, execution);
-  }
-}
-
-void FieldSmoother::blur(BrickField& field, const std::vector<float>& kernel, Execution& execution)
-{
-  this->run(field, kernel, std::numeric_limits<float>::infinity(), execution);
-}
-
-void FieldSmoother::run(BrickField& field, const std::vector<float>& kernel, float most, Execution& execution)
-{
-  if (field.size() == 0)
+  if (!(sigma > least) || field.size() == 0)
   {
     return;
   }
@@ -298,6 +284,7 @@ void FieldSmoother::run(BrickField& field, const std::vector<float>& kernel, flo
     this->To.reset(new float[field.size()]);
     this->Size = field.size();
   }
+  const std::vector<float> kernel = keepingKernel(sigma);
   Smoothing(field, kernel, this->From.get(), this->To.get()).run(most, execution);
 }
 

@@ -28,15 +28,7 @@ public:
    */
   void smooth(BrickField& field, double sigma, float most, Execution& execution);
 
-  /**
-   * Along each axis a symmetric kernel, its weights at 0, 1, 2, ... octants, as of gaussianKernel(), which would draw a surface inwards. Where bricks end the last value goes
-   * on. Cost: as smooth(), by the kernel's length.
-   */
-  void blur(BrickField& field, const std::vector<float>& kernel, Execution& execution);
-
 private:
-  void run(BrickField& field, const std::vector<float>& kernel, float most, Execution& execution);
-
   std::unique_ptr<float[]> From, To; ///< values of all bricks, a brick's row after row; first touched side by side
   std::size_t Size = 0;              ///< of each
 };

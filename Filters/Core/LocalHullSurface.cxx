@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace silhouette
 {
@@ -79,18 +80,28 @@ struct Survivors
   }
 };
 
-/** Label lattice points inside, in a shell that holds the cells around them. */
-void labelInside(LatticeLabels& labels, const std::vector<std::uint64_t>& points, Execution& execution)
+/** Have the labels' shell hold the cells around some lattice points; the covered cells' numbers go with it. */
+void widenAround(LatticeLabels& labels, CoveringResult& covering, const std::vector<std::uint64_t>& points, Execution& execution)
 {
-  if (points.empty())
+  const auto missing = cellsMissingAround(labels.shell(), points, execution);
+  if (missing.empty())
   {
     return;
   }
-  const auto missing = cellsMissingAround(labels.shell(), points, execution);
-  if (!missing.empty())
+  std::vector<std::uint64_t> covered;
+  for (const std::uint32_t cell : covering.coveredCells)
   {
-    labels.widen(withCells(labels.shell(), missing, execution), execution);
+    covered.push_back(labels.shell().cells[cell]);
   }
+  labels.widen(withCells(labels.shell(), missing, execution), execution);
+  std::transform(covered.begin(), covered.end(), covering.coveredCells.begin(),
+    [&](std::uint64_t cell) { return std::uint32_t(labels.shell().findCell(fromMorton(cell))); });
+}
+
+/** Label lattice points inside. */
+void labelInside(LatticeLabels& labels, CoveringResult& covering, const std::vector<std::uint64_t>& points, Execution& execution)
+{
+  widenAround(labels, covering, points, execution);
   for (const std::uint64_t point : points)
   {
     labels.setInside(std::size_t(labels.shell().find(point)));
@@ -103,21 +114,14 @@ void labelInside(LatticeLabels& labels, const std::vector<std::uint64_t>& points
 std::vector<std::uint64_t> mendTopology(LatticeLabels& labels, CoveringResult& covering, const LocalHullOptions& options,
   LocalHullSurface& surface, Execution& execution)
 {
-  std::vector<std::uint64_t> covered;
-  for (const std::uint32_t cell : covering.coveredCells)
-  {
-    covered.push_back(labels.shell().cells[cell]);
-  }
   Phase joining(execution, 0.0, 0.5);
   std::vector<std::uint64_t> points = handleJoints(labels, surface.deficit, options.handles, joining);
   surface.handleCorners = points.size();
-  labelInside(labels, points, execution);
+  labelInside(labels, covering, points, execution);
   Phase filling(execution, 0.5, 1.0);
   const auto walls = tunnelWalls(labels, options.tunnels, filling);
   surface.tunnelCorners = walls.size();
-  labelInside(labels, walls, execution);
-  std::transform(covered.begin(), covered.end(), covering.coveredCells.begin(),
-    [&](std::uint64_t cell) { return std::uint32_t(labels.shell().findCell(fromMorton(cell))); });
+  labelInside(labels, covering, walls, execution);
   points.insert(points.end(), walls.begin(), walls.end());
   return points;
 }
@@ -164,49 +168,23 @@ private:
   }
 };
 
-/** Labels of the corners of a shell, most of which are of the labels' own. */
-std::vector<std::uint8_t> labelsOf(const LatticeLabels& labels, const CornerShell& shell, Execution& execution)
-{
-  std::vector<std::uint8_t> inside(shell.corners.size());
-  execution.forRanges(inside.size(), 1024,
-    [&](std::size_t first, std::size_t last)
-    {
-      const auto& own = labels.shell().corners;
-      auto at = std::lower_bound(own.begin(), own.end(), shell.corners[first]);
-      for (std::size_t c = first; c < last; ++c)
-      {
-        while (at != own.end() && *at < shell.corners[c])
-        {
-          ++at;
-        }
-        const std::uint64_t code = shell.corners[c];
-        inside[c] = at != own.end() && *at == code
-          ? labels.inside()[std::size_t(at - own.begin())] && !labels.octree().lattice.onBorder(fromMorton(code))
-          : labels.insideAt(fromMorton(code));
-      }
-    });
-  return inside;
-}
-
-/** Contour the labels, place the points, and round the thin parts. */
-void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const CoveringResult& covering, const CrossingPlacer& place,
+/** Contour the labels, place the points, and round the thin parts. Crossings are given up once the points are placed. */
+void makeSurface(LatticeLabels& labels, const Survivors& survivors, CoveringResult& covering, SurfaceCrossings crossings,
   const std::vector<std::uint64_t>& added, const LatticeViews* views, const LocalHullOptions& options,
   LocalHullSurface& surface, Execution& execution)
 {
   const Lattice& lattice = labels.octree().lattice;
-  std::optional<CornerShell> extended;
-  const auto missing = cellsMissingAround(labels.shell(), added, execution);
-  if (!missing.empty())
-  {
-    extended = withCells(labels.shell(), missing, execution);
-  }
-  const CornerShell& shell = extended ? *extended : labels.shell();
-  const std::vector<std::uint8_t> inside = labelsOf(labels, shell, execution);
+  widenAround(labels, covering, added, execution);
+  const CornerShell& shell = labels.shell();
   execution.checkpoint(0.2);
-  const LatticeSurface contoured = contour(shell, inside, execution);
-  const std::vector<double> fractions = place.fractions(shell, contoured, execution);
-  execution.checkpoint(0.4);
-  surface.mesh = placePoints(lattice, shell, contoured, fractions, options.singlePrecision, execution);
+  const LatticeSurface contoured = contour(shell, labels.inside(), execution);
+  {
+    const CrossingPlacer place(labels, crossings, views ? &views->prepared() : nullptr, added, options.coverOffset);
+    const std::vector<double> fractions = place.fractions(shell, contoured, execution);
+    execution.checkpoint(0.4);
+    surface.mesh = placePoints(lattice, shell, contoured, fractions, options.singlePrecision, execution);
+  }
+  crossings = {};
   Phase separating(execution, 0.4, 0.5);
   surface.movedToMiddle =
     removeCellIntersections(lattice, shell, contoured, options.singlePrecision, surface.mesh, separating);
@@ -233,7 +211,7 @@ void makeSurface(const LatticeLabels& labels, const Survivors& survivors, const 
  * Labels with every survivor covered, and the surface of them. False where a correction was so large that the surface has more components
  * than the survivors.
  */
-bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const SurfaceCrossings& crossings,
+bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, SurfaceCrossings crossings,
   const PreparedViews* views, const LocalHullOptions& options, LocalHullSurface& surface, Execution& execution)
 {
   surface.cavitiesFilled += options.fillCavities ? fillCavities(labels, execution) : 0;
@@ -263,9 +241,8 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, const Su
     surface.cavitiesFilled += fillCavities(labels, execution);
   }
   execution.checkpoint(0.4);
-  const CrossingPlacer place(labels, crossings, views, added, options.coverOffset);
   Phase contouring(execution, 0.4, 1.0);
-  makeSurface(labels, survivors, covering, place, added, latticeViews ? &*latticeViews : nullptr, options, surface, contouring);
+  makeSurface(labels, survivors, covering, std::move(crossings), added, latticeViews ? &*latticeViews : nullptr, options, surface, contouring);
   const bool isCorrected = labels.field() || &labels.octree() != &survivors.octree;
   return !isCorrected || !options.fillCavities || countComponents(surface.mesh, execution) <= survivors.components;
 }
@@ -294,11 +271,11 @@ LocalHullSurface uncorrectedSurface(
   const Survivors survivors(octree, intersectionShell(octree, execution), options.bridgeGap, execution);
   survivors.count(surface);
   execution.checkpoint(0.4);
-  const SurfaceCrossings crossings = locateCrossings(imperfect, octree.lattice, CrossingSides::Located, execution);
+  SurfaceCrossings crossings = locateCrossings(imperfect, octree.lattice, CrossingSides::Located, execution);
   surface.ignoredPoints = crossings.ignoredPoints;
   LatticeLabels labels(octree, extendedShell(survivors.shell, survivors.bridgePoints, execution), crossings);
   Phase finishing(execution, 0.5, 1.0);
-  coverAndContour(labels, survivors, crossings, nullptr, options, surface, finishing);
+  coverAndContour(labels, survivors, std::move(crossings), nullptr, options, surface, finishing);
   return surface;
 }
 
@@ -339,11 +316,11 @@ LocalHullSurface robustSurface(const Mesh& imperfect, const Octree& carved, cons
   survivors.count(surface);
   LatticeLabels labels = correctedLabels(octree, std::move(survivors.shell), survivors.bridgePoints, views, capture, execution);
   execution.checkpoint(0.6);
-  const SurfaceCrossings crossings =
+  SurfaceCrossings crossings =
     locateCrossings(capture.surface ? *capture.surface : imperfect, octree.lattice, CrossingSides::NotLocated, execution);
   surface.ignoredPoints = crossings.ignoredPoints;
   Phase finishing(execution, 0.6, 0.9);
-  if (coverAndContour(labels, survivors, crossings, capture.repaired ? &*capture.repaired : &views, options, surface, finishing))
+  if (coverAndContour(labels, survivors, std::move(crossings), capture.repaired ? &*capture.repaired : &views, options, surface, finishing))
   {
     return surface;
   }

@@ -42,14 +42,25 @@ inline void findNear(const FieldViews& views, const LatticePoint& lowest, int si
   }
 }
 
+/** Work whose blocks one function names and another one does. */
+template <typename Concerned, typename Work>
+struct BlockWork
+{
+  Concerned concerned;
+  Work work;
+
+  void operator()(std::size_t block, const BlockGroups& groups, const std::vector<NearView>& near) { this->work(block, groups, near); }
+};
+template <typename Concerned, typename Work>
+BlockWork(Concerned, Work) -> BlockWork<Concerned, Work>;
+
 /**
- * Call `work(block, groups, near)` for each block of FieldViews::BlockPoints of the field's of which `concerns(block)` names any groups, perhaps side by side, with its first
- * point's index, these groups and the views that have to be asked there, ascending; `makeWork()` makes the work of each range of bricks. Views that are far from a brick are
- * far from all of its blocks, and are not asked about them.
+ * `makeWork()` makes the work of each range of bricks: `work(block, groups, near)` is called for each block of FieldViews::BlockPoints of the field's of which `work.concerned(block)` names any
+ * groups, perhaps side by side, with its first point's index, these groups and the views that have to be asked there, ascending. Views that are far from a brick are far from all of its
+ * blocks, and are not asked about them.
  */
-template <typename Concerns, typename MakeWork>
-void forBlocks(const BrickField& field, const FieldViews& views, const std::vector<DistanceMap>* maps, const Concerns& concerns,
-  const MakeWork& makeWork, Execution& execution)
+template <typename MakeWork>
+void forBlocks(const BrickField& field, const FieldViews& views, const std::vector<DistanceMap>* maps, const MakeWork& makeWork, Execution& execution)
 {
   std::vector<int> all(std::size_t(views.size()));
   std::iota(all.begin(), all.end(), 0);
@@ -64,7 +75,7 @@ void forBlocks(const BrickField& field, const FieldViews& views, const std::vect
         bool isBrickKnown = false;
         for (std::size_t block = brick * BrickField::BrickPoints; block < (brick + 1) * BrickField::BrickPoints; block += FieldViews::BlockPoints)
         {
-          const BlockGroups groups = concerns(block);
+          const BlockGroups groups = work.concerned(block);
           if (groups.empty())
           {
             continue;

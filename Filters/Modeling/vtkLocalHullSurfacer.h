@@ -372,7 +372,7 @@ public:
   ///@{
   /**
    * CorrectField: where survivors stick out of the corrected surface it is raised to a tenth of an octant beneath the silhouettes' own, within about this distance of
-   * them, instead of being covered by a corner each; leaf octants, 0 for none up to 64, default 1.5. Larger blends in more widely.
+   * them, instead of being covered by a corner each; leaf octants, 0 for none up to 8, default 1.5. Larger blends in more widely.
    */
   vtkSetMacro(RaiseWidth, double);
   vtkGetMacro(RaiseWidth, double);

@@ -337,7 +337,7 @@ TEST(FieldCorrection, OptionsOutOfRangeAreErrorsThatNameTheValue)
     Options options;
     options.*member = -1.5;
     const bool isShare = member == &Options::modelDissent, isWidth = member == &Options::raiseWidth;
-    expectError(options, isShare ? " -1.5 is outside 0 to 1" : isWidth ? " -1.5 is outside 0 to 64"
+    expectError(options, isShare ? " -1.5 is outside 0 to 1" : isWidth ? " -1.5 is outside 0 to 8"
         : member == &Options::contourReach                             ? " -1.5: above 0 is needed"
                                                                        : " -1.5: at least 0 is needed");
     options.*member = nan;
@@ -353,8 +353,8 @@ TEST(FieldCorrection, OptionsOutOfRangeAreErrorsThatNameTheValue)
     }
   }
   Options options;
-  options.raiseWidth = 64.5;
-  expectError(options, "64.5");
+  options.raiseWidth = 8.5;
+  expectError(options, "raise width 8.5 is outside 0 to 8");
   options = {};
   options.modelDissent = 1.25;
   expectError(options, "1.25");

@@ -254,11 +254,8 @@ TEST(FieldSmoothing, ChangesNoValueByMoreThanIsAllowedAndDoesNotRememberTheLastF
   }
 }
 
-TEST(FieldSmoothing, ABlurIsAGaussianAlone)
+TEST(FieldSmoothing, AGaussianKernelAddsUpToOneAndReachesThreeDeviations)
 {
-  Execution execution;
-  const Lattice lattice = latticeOf(5);
-  const LatticePoint middle{ 16, 15, 17 };
   for (const double sigma : { 0.5, 1.5 })
   {
     const std::vector<float> kernel = gaussianKernel(sigma);
@@ -270,16 +267,6 @@ TEST(FieldSmoothing, ABlurIsAGaussianAlone)
     }
     EXPECT_NEAR(sum, 1.0, 1e-6);
     EXPECT_GE(double(kernel.size() - 1), 3.0 * sigma);
-    BrickField field(lattice, allCells(lattice), 0, execution);
-    fill(field, [&](const LatticePoint& p) { return p == middle ? 1000.0 : 0.0; });
-    FieldSmoother().blur(field, kernel, execution);
-    for (std::size_t n = 0; n < field.size(); ++n)
-    {
-      const LatticePoint p = fromMorton(field.code(n));
-      const auto weight = [&](int d) { return std::size_t(std::abs(d)) < kernel.size() ? kernel[std::size_t(std::abs(d))] : 0.0f; };
-      const double expected = 1000.0 * weight(p.i - middle.i) * weight(p.j - middle.j) * weight(p.k - middle.k);
-      EXPECT_NEAR(field.values()[n], expected, 1e-4 + 1e-5 * expected);
-    }
   }
   EXPECT_EQ(gaussianKernel(1e-300)[0], 1.0f);
   EXPECT_EQ(gaussianKernel(1e-300)[1], 0.0f);

@@ -72,18 +72,17 @@ TEST(LeastDistances, AreThoseOfTheViewsThatAreLeastAndOutsideOnTheBorder)
   const auto concerns = [](std::size_t block) { return BlockGroups(std::uint8_t(block / Points * 37)); }; // any groups; none of some blocks
   ThreadedExecution threads(3);
   const auto never = [](std::size_t, const BlockGroups&, const float*) { return false; };
-  forLeastDistances(field, seen, rank, concerns, never,
-    [&](std::size_t block, const BlockGroups& groups, const float* least)
+  const auto take = [&](std::size_t block, const BlockGroups& groups, const float* least)
+  {
+    for (int k = 0; k < rank; ++k)
     {
-      for (int k = 0; k < rank; ++k)
+      for (std::size_t n = 0; n < groups.points(); ++n)
       {
-        for (std::size_t n = 0; n < groups.points(); ++n)
-        {
-          taken[k * field.size() + block + groups.point(n)] = least[k * Points + n];
-        }
+        taken[k * field.size() + block + groups.point(n)] = least[k * Points + n];
       }
-    },
-    threads);
+    }
+  };
+  forLeastDistances(field, seen, rank, [&] { return BlockQuestions{ concerns, never, take }; }, threads);
   int border = 0, near = 0;
   for (std::size_t n = 0; n < field.size(); ++n)
   {
@@ -148,7 +147,8 @@ TEST(LeastDistances, NoFurtherViewIsAskedAboutWhatIsSettled)
   { return [&values](std::size_t block, const BlockGroups&, const float* least) { std::copy_n(least, Points, &values[block]); }; };
   const auto isAny = [](std::size_t) { return BlockGroups::all(); };
   int asked = 0;
-  forLeastDistances(field, seen, 1, isAny, [&](std::size_t, const BlockGroups&, const float*) { return ++asked < 0; }, into(exact), execution);
+  const auto never = [&](std::size_t, const BlockGroups&, const float*) { return ++asked < 0; };
+  forLeastDistances(field, seen, 1, [&] { return BlockQuestions{ isAny, never, into(exact) }; }, execution);
   const int whole = asked;
   asked = 0;
   const auto isNegative = [&](std::size_t, const BlockGroups&, const float* greatest)
@@ -156,7 +156,7 @@ TEST(LeastDistances, NoFurtherViewIsAskedAboutWhatIsSettled)
     ++asked;
     return std::all_of(greatest, greatest + Points, [](float value) { return value <= 0.0f; });
   };
-  forLeastDistances(field, seen, 1, isAny, isNegative, into(bounds), execution);
+  forLeastDistances(field, seen, 1, [&] { return BlockQuestions{ isAny, isNegative, into(bounds) }; }, execution);
   EXPECT_LT(asked, whole);
   int same = 0, other = 0;
   for (std::size_t n = 0; n < field.size(); ++n)
