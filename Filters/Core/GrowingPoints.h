@@ -19,6 +19,9 @@ class GrowingPoints
 public:
   bool has(std::uint64_t point) const { return this->Table[this->placeOf(point >> 6)].bits >> (point & 63) & 1; }
 
+  /** Those of a block, a bit each. */
+  std::uint64_t ofBlock(std::uint64_t block) const { return this->Table[this->placeOf(block)].bits; }
+
   void add(std::uint64_t point) { this->add(BlockWord{ point >> 6, std::uint64_t(1) << (point & 63) }); }
 
   /** Many points, ascending. */

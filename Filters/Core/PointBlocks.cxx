@@ -147,6 +147,19 @@ void PointBlocks::remove(const PointBlocks& other, Execution& execution)
   this->dropEmpty(execution);
 }
 
+void PointBlocks::remove(const GrowingPoints& other, Execution& execution)
+{
+  execution.forRanges(this->Blocks.size(), 1024,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t b = first; b < last; ++b)
+      {
+        this->Blocks[b].bits &= ~other.ofBlock(this->Blocks[b].block);
+      }
+    });
+  this->dropEmpty(execution);
+}
+
 void PointBlocks::dropEmpty(Execution& execution)
 {
   this->Blocks = selected(

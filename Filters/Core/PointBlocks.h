@@ -6,6 +6,7 @@
 
 #include "BlockWords.h"
 #include "Execution.h"
+#include "GrowingPoints.h"
 #include "Lattice.h"
 
 #include <cstdint>
@@ -35,6 +36,7 @@ public:
   PointBlocks spreadBehind(int axis, Execution& execution) const;
   /** Take the other set's points out. Cost: linear in the blocks. */
   void remove(const PointBlocks& other, Execution& execution);
+  void remove(const GrowingPoints& other, Execution& execution);
 
 private:
   void dropEmpty(Execution& execution);

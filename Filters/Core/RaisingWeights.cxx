@@ -203,6 +203,11 @@ void RaisingWeights::Brick::moveTo(std::uint64_t brick)
   }
   this->Code = brick;
   this->collect();
+  if (std::all_of(this->Rows.begin(), this->Rows.end(), [](std::uint64_t row) { return row == 0; }))
+  {
+    this->Weights.fill(0.0f);
+    return;
+  }
   const Window window{ this->Rows.data(), Side + 2 * this->All.Radius, this->All.Radius };
   float sums[BrickField::BrickPoints];
   sumAlong(window, this->All.Steps.data(), this->Along.data());

@@ -14,7 +14,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -23,9 +23,8 @@ namespace silhouette
 namespace
 {
 
-/** Append those of `corners` that one view alone rejects. */
-void appendRejected(const LatticeViews& views, const std::vector<std::uint64_t>& corners,
-                    std::vector<Rejected>& rejected, Execution& execution)
+/** Those of `corners` that one view alone rejects. */
+std::vector<Rejected> rejectedOf(const LatticeViews& views, const std::vector<std::uint64_t>& corners, Execution& execution)
 {
   std::vector<std::int32_t> dissenter(corners.size());
   execution.forRanges(corners.size(), 1024,
@@ -37,13 +36,8 @@ void appendRejected(const LatticeViews& views, const std::vector<std::uint64_t>&
                           dissenter[i] = only.at(fromMorton(corners[i]));
                         }
                       });
-  for (std::size_t i = 0; i < corners.size(); ++i)
-  {
-    if (dissenter[i] >= 0)
-    {
-      rejected.push_back({corners[i], dissenter[i]});
-    }
-  }
+  return selected(
+    corners.size(), [&](std::size_t i) { return dissenter[i] >= 0; }, [&](std::size_t i) { return Rejected{corners[i], dissenter[i]}; }, execution);
 }
 
 /** Number of views that never abstain within the root cube. */
@@ -67,17 +61,15 @@ int viewsThatSpeak(const LatticeViews& views)
 }
 
 /** The same of corners of the octree's surviving octants, each of which one of its own views calls background. */
-void appendRejectedOnce(const Octree& octree, const LatticeViews& views, const std::vector<std::uint64_t>& corners,
-                        std::vector<Rejected>& rejected, Execution& execution)
+std::vector<Rejected> rejectedOnce(const Octree& octree, const LatticeViews& views, const std::vector<std::uint64_t>& corners, Execution& execution)
 {
   const LeafViews undecided(octree, views);
   // Then half of them call such a corner object.
   if (!undecided.isKnown() || 2 * (viewsThatSpeak(views) - 1) < views.size())
   {
-    appendRejected(views, corners, rejected, execution);
-    return;
+    return rejectedOf(views, corners, execution);
   }
-  rejected.resize(corners.size());
+  std::vector<Rejected> rejected(corners.size());
   execution.forRanges(corners.size(), 1024,
                       [&](std::size_t first, std::size_t last)
                       {
@@ -98,6 +90,7 @@ void appendRejectedOnce(const Octree& octree, const LatticeViews& views, const s
                         }
                       });
   rejected.erase(std::remove_if(rejected.begin(), rejected.end(), [](const Rejected& one) { return one.view < 0; }), rejected.end());
+  return rejected;
 }
 
 /** The shell's corners that one view may alone reject: all where the octree was carved from other views; else `votes` are found as well. */
@@ -117,18 +110,8 @@ std::vector<std::uint64_t> onceDisputed(const Octree& octree, const LatticeViews
 std::vector<Rejected> byView(std::vector<Rejected> rejected, const LatticeViews& views, Execution& execution)
 {
   radixSort(rejected, 3 * (views.lattice().depth + 1), [](const Rejected& one) { return one.corner; }, execution);
-  std::vector<std::size_t> next(std::size_t(views.size()) + 1, 0);
-  for (const Rejected& one : rejected)
-  {
-    ++next[std::size_t(one.view) + 1];
-  }
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<Rejected> sorted(rejected.size());
-  for (const Rejected& one : rejected)
-  {
-    sorted[next[std::size_t(one.view)]++] = one;
-  }
-  return sorted;
+  radixSort(rejected, highestBit(std::uint64_t(views.size())) + 1, [](const Rejected& one) { return std::uint64_t(one.view); }, execution);
+  return rejected;
 }
 
 /** What has been found and from which the search goes on. */
@@ -162,7 +145,7 @@ public:
     front.corners = std::move(first);
     if (!front.corners.empty())
     {
-      this->Seen.add(shell.corners);
+      this->look(shell.corners, front.corners);
       this->takeCubes(front);
     }
     while (!front.corners.empty() || !front.cubes.empty())
@@ -192,22 +175,40 @@ private:
     Met met = this->besideCubes(front.cubes);
     std::vector<std::uint64_t> codes(front.corners.size());
     std::transform(front.corners.begin(), front.corners.end(), codes.begin(), [](const Rejected& one) { return one.corner; });
-    codes = PointBlocks(codes, this->Exec).beside(this->Views.lattice(), this->Exec).points(this->Exec);
+    PointBlocks asked = PointBlocks(codes, this->Exec).beside(this->Views.lattice(), this->Exec);
     if (!met.corners.empty())
     {
+      codes = asked.points(this->Exec);
       codes.insert(codes.end(), met.corners.begin(), met.corners.end());
       radixSort(codes, 3 * (this->Views.lattice().depth + 1), [](std::uint64_t code) { return code; }, this->Exec);
+      asked = PointBlocks(codes, this->Exec);
     }
-    const auto isNew = [&](std::size_t n)
-    { return (n == 0 || codes[n - 1] != codes[n]) && !this->Seen.has(codes[n]) && !this->isInCube(codes[n], LeastCube); };
-    codes = selected(codes.size(), isNew, [&](std::size_t n) { return codes[n]; }, this->Exec);
-    this->Seen.add(codes);
+    asked.remove(this->Alone, this->Exec);
+    asked.remove(this->Others, this->Exec);
+    codes = asked.points(this->Exec);
+    if (this->Largest > 0)
+    {
+      codes = selected(
+        codes.size(), [&](std::size_t n) { return !this->isInCube(codes[n], LeastCube); }, [&](std::size_t n) { return codes[n]; }, this->Exec);
+    }
     Front next;
-    appendRejected(this->Views, codes, next.corners, this->Exec);
+    next.corners = rejectedOf(this->Views, codes, this->Exec);
+    this->look(codes, next.corners);
     this->takeCubes(next);
     next.cubes.insert(next.cubes.end(), met.cubes.begin(), met.cubes.end());
     sortUnique(next.cubes);
     return next;
+  }
+
+  /** Corners that have been asked about, ascending, and those of them that one view alone rejects. */
+  void look(const std::vector<std::uint64_t>& corners, const std::vector<Rejected>& rejected)
+  {
+    std::vector<std::uint64_t> alone(rejected.size()), others;
+    std::transform(rejected.begin(), rejected.end(), alone.begin(), [](const Rejected& one) { return one.corner; });
+    others.reserve(corners.size() - alone.size());
+    std::set_difference(corners.begin(), corners.end(), alone.begin(), alone.end(), std::back_inserter(others));
+    this->Alone.add(alone);
+    this->Others.add(others);
   }
 
   /** Take out of a front's corners those that lie in cubes, for these. */
@@ -224,7 +225,7 @@ private:
         for (std::size_t b = first; b < last; ++b)
         {
           const Rejected& one = corners[starts[b]];
-          cubes[b] = { known.around(one.corner, one.view), one.view };
+          cubes[b] = { this->Others.ofBlock(one.corner >> 6) != 0 ? PointCube{ 0, 0 } : known.around(one.corner, one.view), one.view };
         }
       });
     const auto isNone = [](const RejectedCube& one) { return one.cube.side == 0; };
@@ -329,7 +330,7 @@ private:
   const LatticeViews& Views;
   double Depth;
   Execution& Exec;
-  GrowingPoints Seen;                                      ///< corners that need not be asked about again
+  GrowingPoints Alone, Others;                             ///< corners that have been asked about: whether one view alone rejects them
   std::array<GrowingPoints, MaximumDepth + 1> Known;       ///< cubes, by halvings of their sides to a point
   std::int32_t Largest = 0;                                ///< side of a known cube
   RejectedCorners Found;
@@ -340,10 +341,8 @@ private:
 RejectedCorners findRejected(const Octree& octree, const LatticeViews& views, const CornerShell& shell, double depth,
                              KnownVotes::Votes& votes, Execution& execution)
 {
-  std::vector<Rejected> rejected;
   const std::vector<std::uint64_t> first = onceDisputed(octree, views, shell, votes, execution);
-  votes ? appendRejectedOnce(octree, views, first, rejected, execution) : appendRejected(views, first, rejected, execution);
-  return Search(views, depth, execution).from(shell, std::move(rejected));
+  return Search(views, depth, execution).from(shell, votes ? rejectedOnce(octree, views, first, execution) : rejectedOf(views, first, execution));
 }
 
 } // namespace silhouette

@@ -40,21 +40,19 @@ bool isDeep(const LatticeViews& views, const Rejected& rejected, double depth)
   const auto h = projection(p);
   const PreparedView& view = views.view(rejected.view);
   const double u = h.U / h.W, v = h.V / h.W, radius = depth * pixelsPerOctant(projection, p);
-  // Three rectangles whose corners lie on the circle stand for the disc: a few table look-ups.
-  static const double cosines[] = {std::cos(0.3926990816987241), std::cos(0.7853981633974483), std::cos(1.1780972450961724)};
-  static const double sines[] = {std::sin(0.3926990816987241), std::sin(0.7853981633974483), std::sin(1.1780972450961724)};
-  for (int n = 0; n < 3; ++n)
+  const auto isFree = [&](double a, double b)
   {
-    const double a = radius * cosines[n], b = radius * sines[n];
     const auto content = view.content(
         PreparedView::nearestPixel(u - a, view.width), PreparedView::nearestPixel(u + a, view.width),
         PreparedView::nearestPixel(v - b, view.height), PreparedView::nearestPixel(v + b, view.height));
-    if (content.object || content.abstain)
-    {
-      return false;
-    }
-  }
-  return true;
+    return !content.object && !content.abstain;
+  };
+  // Three rectangles whose corners lie on the circle stand for the disc, or the square around them: a few table look-ups.
+  static const double cosines[] = {std::cos(0.3926990816987241), std::cos(0.7853981633974483), std::cos(1.1780972450961724)};
+  static const double sines[] = {std::sin(0.3926990816987241), std::sin(0.7853981633974483), std::sin(1.1780972450961724)};
+  return isFree(radius * cosines[0], radius * sines[2]) ||
+         (isFree(radius * cosines[0], radius * sines[0]) && isFree(radius * cosines[1], radius * sines[1]) &&
+          isFree(radius * cosines[2], radius * sines[2]));
 }
 
 /** Squares of an octant's size of a view's image that hold one of the corners. */
@@ -118,13 +116,19 @@ std::vector<Blobs> deepCorners(const Octree& octree, const LatticeViews& views, 
                         }
                       });
   std::vector<Blobs> ofViews(std::size_t(views.size()));
-  for (std::size_t c = 0; c < corners.size(); ++c)
-  {
-    if (deep[c] != 0)
-    {
-      ofViews[std::size_t(corners[c].view)].corners.push_back(corners[c].corner);
-    }
-  }
+  execution.forRanges(ofViews.size(), 1,
+                      [&](std::size_t firstView, std::size_t lastView)
+                      {
+                        const auto isBefore = [](const Rejected& one, std::size_t view) { return std::size_t(one.view) < view; };
+                        auto one = std::lower_bound(corners.begin(), corners.end(), firstView, isBefore);
+                        for (; one != corners.end() && std::size_t(one->view) < lastView; ++one)
+                        {
+                          if (deep[std::size_t(one - corners.begin())] != 0)
+                          {
+                            ofViews[std::size_t(one->view)].corners.push_back(one->corner);
+                          }
+                        }
+                      });
   for (const RejectedCube& one : rejected.cubes)
   {
     ofViews[std::size_t(one.view)].cubes.push_back(one.cube);

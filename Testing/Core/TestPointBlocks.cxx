@@ -102,6 +102,11 @@ TEST(PointBlocks, NeighboursAreThoseOfThePointsOneByOne)
     rest.remove(blocksOf(others), execution);
     EXPECT_EQ(rest.points(execution), std::vector<std::uint64_t>(expected.begin(), expected.end()));
     EXPECT_EQ(rest.empty(), expected.empty());
+    PointBlocks same = set.beside(lattice, execution);
+    GrowingPoints growing;
+    growing.add(std::vector<std::uint64_t>(others.begin(), others.end()));
+    same.remove(growing, execution);
+    EXPECT_EQ(same.points(execution), rest.points(execution));
   }
 }
 
