@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The camera files that are understood, as text or numbers: what they say of each view, before any image is looked for.
+ * What camera files say of each view, before any image is looked for.
  *
- * | format | file | what it says of a view | pixel family of the file | sign of w |
+ * | format | reader | pixel family of the file | sign of w | lens, size, masks |
  * | --- | --- | --- | --- | --- |
- * | P list | `projections.txt`, or any text | image name, 12 numbers of the 3 x 4 matrix P | not stated | free |
- * | Middlebury | `*_par.txt` | image name, 9 of K, 9 of R, 3 of t; the first line is the number of views | not stated | w > 0 in front |
+ * | P list | ListedCameras.h | not stated | free | |
+ * | Middlebury | ListedCameras.h | not stated | w > 0 in front | |
+ * | transforms.json of NeRF, Blender, nerfstudio | TransformsCameras.h | corner | w > 0 in front | lens, size, masks |
+ * | COLMAP | ColmapCameras.h | corner | w > 0 in front | lens, size |
  *
- * Middlebury's matrix is P = K [R t], camera axes right, down, forward. Where a format does not state its pixel family
- * integer is the default, CaptureOptions::cornerFamily the choice.
- *
- * Blank lines, `#` comments, Windows line endings and a UTF-8 byte order mark are accepted in both.
+ * Where a format states its pixel family its reader brings the matrices to the integer family; where it does not,
+ * integer is the default and CaptureOptions::cornerFamily the choice. How one format is told from another
+ * stands in CameraFormats.h.
  */
 #pragma once
 
@@ -18,6 +19,7 @@
 #include "View.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +30,9 @@ namespace silhouette
 enum class CameraFormat
 {
   ProjectionList,
-  Middlebury
+  Middlebury,
+  Transforms,
+  Colmap
 };
 
 /** One view of a camera file. */
@@ -36,11 +40,15 @@ struct NamedProjection
 {
   std::string name; ///< of the image, as in the file
   int line = 0;     ///< counted from 1; 0 where the file has no lines to speak of
+  std::string where; ///< file, and line or place in it, for messages; empty where the camera file and `line` say it
   Projection projection = Projection::Zero(); ///< of the undistorted image; of the integer family where the format states one
-  std::string mask;  ///< the mask's file, where the camera file names one
+  std::string mask;  ///< the mask's file, from the capture's folder on, where the camera file names one
   std::optional<LensDistortion> lens; ///< what has to be taken out of the image, where there is any
   int width = 0;  ///< px of the image that the camera is for; 0 where the file does not say
   int height = 0;
+  /** Where the camera follows from the image's size, which the file does not say: the view of an image of that width and height, px.
+   * `projection` is zero until then. */
+  std::function<NamedProjection(int width, int height)> ofSize;
 };
 
 struct CameraFile
@@ -51,12 +59,13 @@ struct CameraFile
 };
 
 /**
- * Read a camera file: Middlebury where its name ends in `_par.txt` or its first line is a single whole
- * number, else a P list. Throws InvalidInput, naming file, line and value: a wrong number of numbers on a
- * line, something that is not a finite number, a name that occurs twice, a count that differs from the lines,
- * no view at all.
+ * Read a camera file, of the format that formatOf() (CameraFormats.h) tells. Throws InvalidInput, naming file, line or view, and value:
+ * whatever the format's reader throws, a name that is empty or occurs twice, no view at all.
  */
 CameraFile readCameraFile(const std::filesystem::path& file);
+
+/** Where a camera file speaks of a view, for messages: the file, and its line where there is one. */
+std::string placeOf(const NamedProjection& view, const std::filesystem::path& file);
 
 /** Bring a projection onto corner-family pixels ((0.5, 0.5) is the first pixel's centre) to the integer
  * family. */

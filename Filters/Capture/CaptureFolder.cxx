@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CaptureFolder.h"
 
+#include "CameraFormats.h"
 #include "Error.h"
+#include "ImageSearch.h"
 #include "PreparedViews.h"
 #include "TextParsing.h"
 #include "ViewSelection.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <numeric>
 #include <set>
@@ -20,47 +21,10 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 10> ImageExtensions = {".png", ".pgm", ".bmp", ".tif",  ".tiff",
-                                                         ".ppm", ".pnm", ".jpg", ".jpeg", ".gif"};
-
-bool isFile(const fs::path& path)
-{
-  std::error_code error;
-  return fs::is_regular_file(path, error);
-}
-
-bool isFolder(const fs::path& path)
-{
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
-
 bool endsWith(const std::string& text, const std::string& ending)
 {
   return text.size() >= ending.size() &&
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
-
-bool isImageName(const fs::path& path)
-{
-  const std::string extension = lowerCase(path.extension().string());
-  return std::find(ImageExtensions.begin(), ImageExtensions.end(), extension) != ImageExtensions.end();
-}
-
-/** The regular files of a folder, sorted by name; none where it cannot be read. */
-std::vector<fs::path> filesOf(const fs::path& folder)
-{
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-  {
-    if (isFile(at->path()))
-    {
-      files.push_back(at->path());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
 }
 
 std::vector<fs::path> filesEndingIn(const fs::path& folder, const std::string& ending)
@@ -83,22 +47,22 @@ std::string listed(const std::vector<fs::path>& files)
 
 fs::path findCameraFile(const fs::path& folder)
 {
-  if (isFile(folder / "projections.txt"))
+  std::string lookedFor;
+  for (const CameraFormatTraits& format : cameraFormats())
   {
-    return folder / "projections.txt";
+    const std::vector<fs::path> files = format.filesIn(folder);
+    if (files.size() > 1)
+    {
+      throw InvalidInput(folder.string() + ": several of " + format.lookedFor + ": " + listed(files) +
+                         (lookedFor.empty() ? "" : "; and no " + lookedFor) + "; give the camera file itself");
+    }
+    if (files.size() == 1)
+    {
+      return files[0];
+    }
+    lookedFor += (lookedFor.empty() ? "" : ", ") + std::string(format.lookedFor);
   }
-  const std::vector<fs::path> parameters = filesEndingIn(folder, "_par.txt");
-  if (parameters.size() == 1)
-  {
-    return parameters[0];
-  }
-  if (parameters.empty())
-  {
-    throw InvalidInput(folder.string() +
-                       ": no camera file; looked for projections.txt (a P list) and *_par.txt (Middlebury)");
-  }
-  throw InvalidInput(folder.string() + ": no projections.txt, and several of *_par.txt (" +
-                     listed(parameters) + "); give the camera file itself");
+  throw InvalidInput(folder.string() + ": no camera file; looked for " + lookedFor);
 }
 
 /** The file that lists the good silhouettes: of the camera file's own prefix, or the only one; else empty. */
@@ -172,82 +136,49 @@ std::vector<int> usedViews(const CaptureDescription& capture, const CameraFile& 
   return selectViews(options.views, names);
 }
 
-/** What a name of the camera file says within the capture's folder: "./a.png" is "a.png", and so is the folder's own path before it. */
-fs::path nameWithin(const fs::path& folder, const std::string& name)
+/** The view, with what its image's size tells of its camera. */
+NamedProjection completed(const NamedProjection& view, const CaptureEntry& entry, const std::string& where, const CaptureOptions& options)
 {
-  const fs::path plain = fs::path(name).lexically_normal();
-  if (plain.is_relative())
+  if (!view.ofSize)
   {
-    return plain;
+    return view;
   }
-  std::error_code error;
-  const fs::path relative = plain.lexically_relative(fs::absolute(folder, error).lexically_normal());
-  return relative.empty() || *relative.begin() == ".." ? plain : relative;
+  if (!options.sizeOf)
+  {
+    throw InvalidInput(where + ": the camera file does not say the image's size");
+  }
+  const std::array<int, 2> size = options.sizeOf(entry.photograph.empty() ? entry.mask : entry.photograph);
+  return view.ofSize(size[0], size[1]);
 }
 
-fs::path findPhotograph(const fs::path& folder, const std::string& name)
+CaptureEntry makeEntry(const CaptureDescription& capture, const NamedProjection& named, const CaptureOptions& options)
 {
-  const fs::path within = nameWithin(folder, name);
-  for (const fs::path& candidate : {folder / "images" / within, folder / within})
-  {
-    if (isFile(candidate))
-    {
-      return candidate;
-    }
-  }
-  return {};
-}
-
-/** The files that may be the mask of an image, that which is taken first. */
-std::vector<fs::path> masksOf(const fs::path& folder, const std::string& name)
-{
-  const fs::path within = nameWithin(folder, name), images = "images";
-  const fs::path inImages = *within.begin() == images ? within.lexically_relative(images) : within;
-  // Of an image that lies elsewhere the mask has its name.
-  const fs::path mask = folder / "masks" / (inImages.is_relative() ? inImages : inImages.filename());
-  std::vector<fs::path> candidates = {mask, fs::path(mask).replace_extension(".png"),
-                                      fs::path(mask.string() + ".png")};
-  for (const char* extension : ImageExtensions)
-  {
-    candidates.push_back(fs::path(mask).replace_extension(extension));
-  }
-  std::vector<fs::path> masks;
-  for (const fs::path& candidate : candidates)
-  {
-    if (isFile(candidate) && std::find(masks.begin(), masks.end(), candidate) == masks.end())
-    {
-      masks.push_back(candidate);
-    }
-  }
-  return masks;
-}
-
-fs::path findMask(const fs::path& folder, const std::string& name)
-{
-  const std::vector<fs::path> masks = masksOf(folder, name);
-  return masks.empty() ? fs::path() : masks.front();
-}
-
-CaptureEntry makeEntry(const CaptureDescription& capture, const NamedProjection& view, bool cornerFamily)
-{
-  const std::string where = capture.cameraFile.string() + " line " + std::to_string(view.line);
+  const std::string where = placeOf(named, capture.cameraFile);
   CaptureEntry entry;
-  entry.name = view.name;
-  entry.photograph = findPhotograph(capture.folder, view.name);
-  entry.mask = findMask(capture.folder, view.name);
+  entry.name = named.name;
+  entry.photograph = findPhotograph(capture.folder, named);
+  entry.mask = findMask(capture.folder, named);
+  if (!entry.mask.empty() && !isFile(entry.mask))
+  {
+    throw InvalidInput(where + ": the mask " + inQuotes(named.mask) + " of view " + inQuotes(named.name) + " is missing: there is no " + entry.mask.string());
+  }
   if (entry.photograph.empty() && entry.mask.empty())
   {
-    throw InvalidInput(where + ": image " + inQuotes(view.name) + " is missing: neither in " +
+    throw InvalidInput(where + ": image " + inQuotes(named.name) + " is missing: neither in " +
                        capture.folder.string() +
                        " nor in its images/, and no mask of that stem in its masks/");
   }
+  const NamedProjection view = completed(named, entry, where, options);
   const int rank = projectionRank(view.projection);
   if (rank < 3)
   {
     throw InvalidInput(where + ": the projection of view " + inQuotes(view.name) + " has rank " +
                        std::to_string(rank) + "; a camera needs 3");
   }
-  entry.projection = cornerFamily ? cornerToInteger(view.projection) : view.projection;
+  entry.projection = options.cornerFamily ? cornerToInteger(view.projection) : view.projection;
+  entry.lens = view.lens;
+  entry.width = view.width;
+  entry.height = view.height;
   return entry;
 }
 
@@ -274,16 +205,18 @@ void checkMasksAreSingle(const CaptureDescription& capture, const CameraFile& ca
   std::set<fs::path> taken;
   for (const NamedProjection& view : cameras.views)
   {
-    taken.insert(findMask(capture.folder, view.name));
+    taken.insert(findMask(capture.folder, view));
   }
-  for (const CaptureEntry& entry : capture.entries)
+  std::set<std::string> used;
+  std::transform(capture.entries.begin(), capture.entries.end(), std::inserter(used, used.end()), [](const CaptureEntry& entry) { return entry.name; });
+  for (const NamedProjection& view : cameras.views)
   {
-    for (const fs::path& mask : masksOf(capture.folder, entry.name))
+    for (const fs::path& mask : masksOf(capture.folder, view))
     {
-      if (taken.count(mask) == 0)
+      if (used.count(view.name) > 0 && taken.count(mask) == 0)
       {
-        throw InvalidInput(entry.mask.string() + " and " + mask.string() + ": either would be the mask of view " +
-                           inQuotes(entry.name) + "; keep one");
+        throw InvalidInput(findMask(capture.folder, view).string() + " and " + mask.string() + ": either would be the mask of view " +
+                           inQuotes(view.name) + "; keep one");
       }
     }
   }
@@ -327,7 +260,7 @@ void warnOfUnusedMasks(CaptureDescription& capture, const CameraFile& cameras)
   std::set<fs::path> found;
   for (const NamedProjection& view : cameras.views)
   {
-    found.insert(findMask(capture.folder, view.name).lexically_normal());
+    found.insert(findMask(capture.folder, view).lexically_normal());
   }
   std::vector<fs::path> unused;
   for (const fs::path& file : filesOf(capture.folder / "masks"))
@@ -348,21 +281,15 @@ void warnOfUnusedMasks(CaptureDescription& capture, const CameraFile& cameras)
 /** Folder and camera file alone. */
 CaptureDescription locateCapture(const fs::path& folderOrCameraFile)
 {
-  CaptureDescription capture;
-  if (isFolder(folderOrCameraFile))
-  {
-    capture.folder = folderOrCameraFile;
-    capture.cameraFile = findCameraFile(capture.folder);
-  }
-  else if (isFile(folderOrCameraFile))
-  {
-    capture.cameraFile = folderOrCameraFile;
-    capture.folder = folderOrCameraFile.has_parent_path() ? folderOrCameraFile.parent_path() : fs::path(".");
-  }
-  else
+  std::error_code error;
+  const bool isFolder = fs::is_directory(folderOrCameraFile, error);
+  if (!isFolder && !isFile(folderOrCameraFile))
   {
     throw InvalidInput(folderOrCameraFile.string() + ": there is no such folder or camera file");
   }
+  CaptureDescription capture;
+  capture.cameraFile = isFolder ? findCameraFile(folderOrCameraFile) : folderOrCameraFile;
+  capture.folder = formatOf(capture.cameraFile).captureFolder(capture.cameraFile);
   return capture;
 }
 
@@ -376,10 +303,11 @@ std::vector<std::string> captureViewNames(const fs::path& folderOrCameraFile)
 std::vector<fs::path> captureFiles(const fs::path& folderOrCameraFile)
 {
   const CaptureDescription capture = locateCapture(folderOrCameraFile);
-  std::vector<fs::path> files = {capture.cameraFile};
-  for (const std::string& name : namesOf(readCameraFile(capture.cameraFile)))
+  const CameraFile cameras = readCameraFile(capture.cameraFile);
+  std::vector<fs::path> files = cameras.files;
+  for (const NamedProjection& view : cameras.views)
   {
-    for (const fs::path& image : {findPhotograph(capture.folder, name), findMask(capture.folder, name)})
+    for (const fs::path& image : {findPhotograph(capture.folder, view), findMask(capture.folder, view)})
     {
       if (!image.empty())
       {
@@ -399,11 +327,17 @@ CaptureDescription describeCapture(const fs::path& folderOrCameraFile, const Cap
 {
   CaptureDescription capture = locateCapture(folderOrCameraFile);
   const CameraFile cameras = readCameraFile(capture.cameraFile);
-  capture.format = formatName(cameras.format);
-  capture.freeSign = cameras.format == CameraFormat::ProjectionList;
+  const CameraFormatTraits& traits = traitsOf(cameras.format);
+  if (options.cornerFamily && *traits.pixelFamily)
+  {
+    throw InvalidInput(capture.cameraFile.string() + ": " + traits.name + " states its pixel family (" + traits.pixelFamily +
+                       "); the corner family is a choice for formats that state none");
+  }
+  capture.format = traits.name;
+  capture.freeSign = traits.freeSign;
   for (const int view : usedViews(capture, cameras, options))
   {
-    capture.entries.push_back(makeEntry(capture, cameras.views[std::size_t(view)], options.cornerFamily));
+    capture.entries.push_back(makeEntry(capture, cameras.views[std::size_t(view)], options));
   }
   checkMasksDiffer(capture.entries);
   checkMasksAreSingle(capture, cameras);

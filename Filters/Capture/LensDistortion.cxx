@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 
 namespace silhouette
@@ -26,6 +27,78 @@ void check(const LensDistortion& lens)
   }
 }
 
+/** cv::remap counts pixels in 16 bits. */
+constexpr int LargestSide = 32766;
+
+void checkImage(int width, int height, int channels)
+{
+  if (width < 1 || height < 1 || width > LargestSide || height > LargestSide || channels < 1 || channels > 4)
+  {
+    throw InvalidInput("an image of " + std::to_string(width) + " x " + std::to_string(height) + " pixels and " + std::to_string(channels) +
+                       " channels; a lens's distortion is taken out of images of 1 to " + std::to_string(LargestSide) +
+                       " pixels a side and 1 to 4 channels");
+  }
+}
+
+/** The colours of an image of one or two, one after another, `channels` bytes each; empty where there are more. */
+std::vector<std::uint8_t> fewColours(const std::uint8_t* pixels, std::size_t count, std::size_t channels)
+{
+  std::vector<std::uint8_t> colours(pixels, pixels + channels);
+  for (std::size_t i = 1; i < count; ++i)
+  {
+    const std::uint8_t* pixel = pixels + i * channels;
+    bool isKnown = false;
+    for (std::size_t known = 0; known < colours.size(); known += channels)
+    {
+      isKnown = isKnown || std::equal(pixel, pixel + channels, colours.begin() + std::ptrdiff_t(known));
+    }
+    if (!isKnown && colours.size() == 2 * channels)
+    {
+      return {};
+    }
+    colours.insert(colours.end(), pixel, isKnown ? pixel : pixel + channels);
+  }
+  return colours;
+}
+
+/** Each pixel takes the nearer of two colours. */
+void takeNearer(const std::vector<std::uint8_t>& colours, std::vector<std::uint8_t>& pixels)
+{
+  const std::size_t channels = colours.size() / 2;
+  for (std::size_t i = 0; i < pixels.size(); i += channels)
+  {
+    int nearer = 0; // distance to the first less that to the second
+    for (std::size_t channel = 0; channel < channels; ++channel)
+    {
+      const int value = pixels[i + channel];
+      nearer += std::abs(value - colours[channel]) - std::abs(value - colours[channels + channel]);
+    }
+    std::copy_n(colours.begin() + std::ptrdiff_t(nearer < 0 ? 0 : channels), channels, pixels.begin() + std::ptrdiff_t(i));
+  }
+}
+
+/** Where each pixel of the undistorted image comes from, in u and v. */
+void makeMaps(const LensDistortion& lens, int width, int height, cv::Mat& u, cv::Mat& v)
+{
+  cv::Mat K(3, 3, CV_64F);
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      K.at<double>(row, column) = lens.intrinsics(row, column);
+    }
+  }
+  const cv::Mat coefficients(lens.coefficients, true);
+  if (lens.model == LensDistortion::Model::Fisheye)
+  {
+    cv::fisheye::initUndistortRectifyMap(K, coefficients, cv::Mat::eye(3, 3, CV_64F), K, { width, height }, CV_32FC1, u, v);
+  }
+  else
+  {
+    cv::initUndistortRectifyMap(K, coefficients, cv::Mat(), K, { width, height }, CV_32FC1, u, v);
+  }
+}
+
 } // namespace
 
 bool LensDistortion::isAny() const
@@ -37,28 +110,26 @@ bool LensDistortion::isAny() const
 std::vector<std::uint8_t> undistorted(const std::uint8_t* pixels, int width, int height, int channels, const LensDistortion& lens)
 {
   check(lens);
-  cv::Mat K(3, 3, CV_64F);
-  for (int row = 0; row < 3; ++row)
+  checkImage(width, height, channels);
+  const std::size_t count = std::size_t(width) * std::size_t(height);
+  std::vector<std::uint8_t> result(count * std::size_t(channels));
+  try
   {
-    for (int column = 0; column < 3; ++column)
-    {
-      K.at<double>(row, column) = lens.intrinsics(row, column);
-    }
+    cv::Mat u, v;
+    makeMaps(lens, width, height, u, v);
+    const cv::Mat from(height, width, CV_8UC(channels), const_cast<std::uint8_t*>(pixels));
+    cv::Mat to(height, width, CV_8UC(channels), result.data());
+    cv::remap(from, to, u, v, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   }
-  const cv::Mat coefficients(lens.coefficients, true);
-  cv::Mat u, v;
-  if (lens.model == LensDistortion::Model::Fisheye)
+  catch (const cv::Exception& error)
   {
-    cv::fisheye::initUndistortRectifyMap(K, coefficients, cv::Mat::eye(3, 3, CV_64F), K, { width, height }, CV_32FC1, u, v);
+    throw InvalidInput("its lens's distortion cannot be taken out of an image (" + error.err + ")");
   }
-  else
+  const std::vector<std::uint8_t> colours = fewColours(pixels, count, std::size_t(channels));
+  if (colours.size() == 2 * std::size_t(channels))
   {
-    cv::initUndistortRectifyMap(K, coefficients, cv::Mat(), K, { width, height }, CV_32FC1, u, v);
+    takeNearer(colours, result);
   }
-  std::vector<std::uint8_t> result(std::size_t(width) * std::size_t(height) * std::size_t(channels));
-  const cv::Mat from(height, width, CV_8UC(channels), const_cast<std::uint8_t*>(pixels));
-  cv::Mat to(height, width, CV_8UC(channels), result.data());
-  cv::remap(from, to, u, v, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   return result;
 }
 

@@ -31,8 +31,9 @@ struct LensDistortion
 };
 
 /**
- * The image of a lens without distortion and with the same K: rows from the top, `channels` interleaved bytes a pixel, linear between pixels; beyond the image
- * its border's pixels go on. Throws InvalidInput for a number of coefficients that the model does not have. Cost: one pass.
+ * The image of a lens without distortion and with the same K: rows from the top, `channels` interleaved bytes a pixel, 1 to 4, linear between pixels; beyond the image
+ * its border's pixels go on, and what would come to lie beyond the new one is cut off. An image of two colours keeps them: each pixel takes the nearer. Throws
+ * InvalidInput: a number of coefficients that the model does not have; a side that is not of 1 to 32766 pixels. Cost: a pass or two; 8 bytes a pixel.
  */
 std::vector<std::uint8_t> undistorted(const std::uint8_t* pixels, int width, int height, int channels, const LensDistortion& lens);
 

@@ -17,32 +17,6 @@ namespace
 
 constexpr std::uintmax_t LargestTextFile = std::uintmax_t(64) << 20;
 
-std::string readBytes(const std::filesystem::path& file)
-{
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-  {
-    throw InvalidInput(file.string() + ": there is no such file");
-  }
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error)
-  {
-    throw InvalidInput(file.string() + ": cannot be read (" + error.message() + ")");
-  }
-  if (size > LargestTextFile)
-  {
-    throw InvalidInput(file.string() + ": " + std::to_string(size) +
-                       " bytes are too many for a camera file (at most 64 MiB)");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(std::size_t(size), '\0');
-  if (!stream || !stream.read(bytes.data(), std::streamsize(size)))
-  {
-    throw InvalidInput(file.string() + ": cannot be read");
-  }
-  return bytes;
-}
-
 bool isBlank(char c)
 {
   return c == ' ' || c == '\t' || c == '\v' || c == '\f';
@@ -85,6 +59,32 @@ std::vector<std::string> tokensOf(std::string_view line, const std::string& wher
 }
 
 } // namespace
+
+std::string readBytes(const std::filesystem::path& file)
+{
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+  {
+    throw InvalidInput(file.string() + ": there is no such file");
+  }
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error)
+  {
+    throw InvalidInput(file.string() + ": cannot be read (" + error.message() + ")");
+  }
+  if (size > LargestTextFile)
+  {
+    throw InvalidInput(file.string() + ": " + std::to_string(size) +
+                       " bytes are too many for a camera file (at most 64 MiB)");
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(std::size_t(size), '\0');
+  if (!stream || !stream.read(bytes.data(), std::streamsize(size)))
+  {
+    throw InvalidInput(file.string() + ": cannot be read");
+  }
+  return bytes;
+}
 
 std::vector<TextLine> readTextLines(const std::filesystem::path& file)
 {

@@ -28,6 +28,9 @@ struct TextLine
  */
 std::vector<TextLine> readTextLines(const std::filesystem::path& file);
 
+/** All bytes of a file. Throws InvalidInput, naming it: not a regular file, not readable, larger than 64 MiB. */
+std::string readBytes(const std::filesystem::path& file);
+
 /** All of `text` as a finite number, with a point whatever the locale; a leading `+` is accepted. */
 std::optional<double> parseFinite(std::string_view text);
 

@@ -5,6 +5,7 @@
 #include "FieldValues.h"
 #include "ImageFiles.h"
 #include "ItemWork.h"
+#include "LensDistortion.h"
 #include "ProjectiveCameras.h"
 
 #include "vtkCellArray.h"
@@ -57,6 +58,48 @@ void checkSameSize(const CaptureEntry& entry)
     throw InvalidInput("mask " + entry.mask.string() + " has " + sizeText(mask) + " pixels, its photograph " +
                        entry.photograph.string() + " has " + sizeText(photograph));
   }
+}
+
+void checkStatedSize(const CaptureEntry& entry, const std::filesystem::path& file, vtkImageData* image)
+{
+  int size[3];
+  image->GetDimensions(size);
+  if ((entry.width > 0 && size[0] != entry.width) || (entry.height > 0 && size[1] != entry.height))
+  {
+    throw InvalidInput("image " + file.string() + " has " + sizeText({size[0], size[1]}) + " pixels, its camera is for " +
+                       sizeText({entry.width, entry.height}));
+  }
+}
+
+/** The image as a lens without distortion would have made it. */
+vtkSmartPointer<vtkImageData> withoutDistortion(const ImageView& view, std::size_t index, const LensDistortion& lens)
+{
+  PixelRows rows = pixelRows(view, index);
+  try
+  {
+    rows.values = undistorted(rows.values.data(), rows.width, rows.height, rows.channels, lens);
+  }
+  catch (const InvalidInput& error)
+  {
+    throw InvalidInput(describeView(index, view.name) + ": " + error.what());
+  }
+  return makeImage(rows);
+}
+
+/** One view's image, ready for its matrix. */
+ImageView readView(const CaptureEntry& entry, std::size_t index, CaptureImageChoice choice, std::vector<std::string>& warnings)
+{
+  const bool mask = takesMask(entry, index, choice);
+  checkSameSize(entry);
+  const std::filesystem::path& file = mask ? entry.mask : entry.photograph;
+  ImageView view = {readImage(file, warnings), entry.name, entry.projection};
+  checkStatedSize(entry, file, view.image);
+  if (entry.lens)
+  {
+    view.image = withoutDistortion(view, index, *entry.lens);
+  }
+  setField(view.image, IsMaskName, int(mask));
+  return view;
 }
 
 Vector2 objectPixel(const ImageView& view, std::size_t index)
@@ -134,11 +177,7 @@ std::vector<ImageView> readCapture(const CaptureDescription& capture, CaptureIma
   forItems(count, execution,
            [&](std::size_t i)
            {
-             const CaptureEntry& entry = capture.entries[i];
-             const bool mask = takesMask(entry, i, choice);
-             checkSameSize(entry);
-             views[i] = {readImage(mask ? entry.mask : entry.photograph, heard[i]), entry.name, entry.projection};
-             setField(views[i].image, IsMaskName, int(mask));
+             views[i] = readView(capture.entries[i], i, choice, heard[i]);
              setField(views[i].image, SignIsFreeName, int(capture.freeSign));
              if (capture.freeSign)
              {

@@ -24,10 +24,10 @@ enum class CaptureImageChoice : int
 };
 
 /**
- * The views of a capture. Matrices whose sign is free are made positive at the object: at the point nearest
+ * The views of a capture, their images without their lenses' distortion. Matrices whose sign is free are made positive at the object: at the point nearest
  * the rays through the silhouettes' centroids, or through the images' centres where an image is no
  * silhouette. Throws InvalidInput, naming the files: what readImage throws; a mask of another size than its
- * photograph; no file of the wanted kind. What the images' readers warn of is added to `warnings`, in the
+ * photograph, an image of another size than the camera file says; what undistorted() throws; no file of the wanted kind. What the images' readers warn of is added to `warnings`, in the
  * views' order; of several that cannot be read the first is thrown. Images are read side by side.
  */
 std::vector<ImageView> readCapture(const CaptureDescription& capture, CaptureImageChoice choice,

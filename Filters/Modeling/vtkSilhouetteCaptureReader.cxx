@@ -3,6 +3,7 @@
 
 #include "CaptureFolder.h"
 #include "CaptureImages.h"
+#include "ImageFiles.h"
 #include "PieceRequests.h"
 #include "ViewConversion.h"
 #include "vtkSilhouetteExecution.h"
@@ -47,7 +48,9 @@ int vtkSilhouetteCaptureReader::CanReadFile(const char* fileName)
 {
   try
   {
-    silhouette::describeCapture(fileName ? fileName : "");
+    silhouette::CaptureOptions options;
+    options.sizeOf = readImageSize;
+    silhouette::describeCapture(fileName ? fileName : "", options);
     return 1;
   }
   catch (const std::exception&)
@@ -91,6 +94,7 @@ int vtkSilhouetteCaptureReader::RequestData(vtkInformation* request, vtkInformat
     silhouette::CaptureOptions options;
     options.views = this->Views ? this->Views : "";
     options.cornerFamily = this->PixelFamily == CORNER;
+    options.sizeOf = readImageSize;
     const silhouette::CaptureDescription capture = silhouette::describeCapture(this->FileName, options);
     silhouette::Phase reading(execution, 0.0, 0.98);
     std::vector<std::string> warnings = capture.warnings;

@@ -33,6 +33,20 @@ std::string errorIn(const TemporaryFolder& folder, const CaptureOptions& options
   return errorOf([&] { describeCapture(folder.path(), options); });
 }
 
+/** COLMAP's text model of one image. */
+void writeColmap(const TemporaryFolder& folder, const std::string& place, const std::string& image)
+{
+  folder.write(place + "cameras.txt", "1 SIMPLE_RADIAL 640 480 500 320 240 0.1\n");
+  folder.write(place + "images.txt", "1 1 0 0 0 0 0 3 1 " + image + "\n\n");
+}
+
+/** transforms.json of one image. */
+std::string transforms(const std::string& image, const std::string& keys = {})
+{
+  return R"({"fl_x": 500, "cx": 320, "cy": 240, "frames": [{"file_path": ")" + image + "\", " + keys +
+         R"("transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}]})";
+}
+
 } // namespace
 
 TEST(CaptureFolder, PhotographsInImagesMasksOfEqualStem)
@@ -169,17 +183,120 @@ TEST(CaptureFolder, CameraFileIsLookedFor)
 {
   const TemporaryFolder folder;
   EXPECT_TRUE(holds(errorIn(folder),
-                    "no camera file; looked for projections.txt (a P list) and *_par.txt (Middlebury)"));
+                    ": no camera file; looked for projections.txt (a P list), *_par.txt (Middlebury), transforms.json, transforms_train.json (NeRF, nerfstudio), "
+                    "cameras and images, .bin or .txt, in it, in its sparse or sparse/0 (COLMAP)"));
   folder.write("b_par.txt", "1\na.png" + Krt);
   folder.write("a_par.txt", "1\na.png" + Krt);
   EXPECT_TRUE(
-      holds(errorIn(folder), "several of *_par.txt (a_par.txt, b_par.txt); give the camera file itself"));
+      holds(errorIn(folder), "several of *_par.txt (Middlebury): a_par.txt, b_par.txt; and no projections.txt (a P list); give the camera file itself"));
   folder.write("a.png");
   EXPECT_EQ(describeCapture(folder.path() / "b_par.txt").entries.size(), 1u);
   folder.write("projections.txt", "a.png" + P);
   EXPECT_EQ(describeCapture(folder.path()).format, "P list");
   EXPECT_TRUE(holds(errorOf([&] { describeCapture(folder.path() / "none"); }),
                     "none: there is no such folder or camera file"));
+}
+
+TEST(CaptureFolder, OtherProgramsAreLookedForInOrder)
+{
+  const TemporaryFolder folder;
+  for (const char* name : {"a.png", "b.png", "c.png", "d.png", "e.png", "images/f.jpg", "masks/f.jpg.png"})
+  {
+    folder.write(name);
+  }
+  const auto found = [&] { return std::pair(describeCapture(folder.path()).format, describeCapture(folder.path()).entries.at(0).name); };
+  writeColmap(folder, "sparse/0/", "f.jpg");
+  const CaptureDescription capture = describeCapture(folder.path());
+  EXPECT_EQ(capture.format, "COLMAP");
+  EXPECT_FALSE(capture.freeSign);
+  EXPECT_EQ(capture.folder, folder.path());
+  EXPECT_EQ(capture.cameraFile, folder.path() / "sparse/0/images.txt");
+  EXPECT_EQ(capture.entries.at(0).photograph, folder.path() / "images/f.jpg");
+  EXPECT_EQ(capture.entries.at(0).mask, folder.path() / "masks/f.jpg.png");
+  EXPECT_EQ(capture.entries.at(0).width, 640);
+  EXPECT_EQ(capture.entries.at(0).height, 480);
+  EXPECT_EQ(capture.entries.at(0).lens.value().coefficients[0], 0.1);
+  writeColmap(folder, "sparse/", "e.png");
+  EXPECT_EQ(found(), std::pair(std::string("COLMAP"), std::string("e.png")));
+  writeColmap(folder, "", "d.png");
+  EXPECT_EQ(found(), std::pair(std::string("COLMAP"), std::string("d.png")));
+  folder.write("transforms_train.json", transforms("c"));
+  EXPECT_EQ(found(), std::pair(std::string("transforms.json"), std::string("c.png")));
+  folder.write("transforms.json", transforms("b"));
+  EXPECT_EQ(found(), std::pair(std::string("transforms.json"), std::string("b.png")));
+  folder.write("a_par.txt", "1\na.png" + Krt);
+  EXPECT_EQ(found(), std::pair(std::string("Middlebury"), std::string("a.png")));
+}
+
+TEST(CaptureFolder, ColmapModelsByTheirOwnPaths)
+{
+  const TemporaryFolder folder;
+  writeColmap(folder, "sparse/1/", "a.png");
+  folder.write("images/a.png");
+  for (const char* path : {"sparse/1", "sparse/1/", "sparse/1/cameras.txt", "sparse/1/images.txt"})
+  {
+    const CaptureDescription capture = describeCapture(folder.path() / path);
+    EXPECT_EQ(capture.folder, folder.path()) << path;
+    EXPECT_EQ(capture.entries.at(0).photograph, folder.path() / "images/a.png") << path;
+  }
+  writeColmap(folder, "sparse/1/", "b.png");
+  EXPECT_TRUE(holds(errorOf([&] { describeCapture(folder.path() / "sparse/1/cameras.txt"); }),
+                    "sparse/1/images.txt line 1: image 'b.png' is missing: neither in " + folder.path().string() + " nor"))
+      << "the file that names it";
+  folder.write("images/b.png");
+  const std::vector<std::filesystem::path> files = captureFiles(folder.path() / "sparse/1");
+  for (const char* file : {"sparse/1/cameras.txt", "sparse/1/images.txt", "images/b.png"})
+  {
+    EXPECT_GE(std::count(files.begin(), files.end(), folder.path() / file), 1) << file;
+  }
+}
+
+TEST(CaptureFolder, FamiliesThatAreStated)
+{
+  const TemporaryFolder folder;
+  folder.write("a.png");
+  CaptureOptions options;
+  options.cornerFamily = true;
+  folder.write("transforms.json", transforms("a"));
+  EXPECT_TRUE(holds(errorIn(folder, options), "transforms.json: transforms.json states its pixel family (corner); the corner family is a choice for formats that state none"));
+  writeColmap(folder, "sparse/", "a.png");
+  EXPECT_TRUE(holds(errorOf([&] { describeCapture(folder.path() / "sparse", options); }), "sparse/images.txt: COLMAP states its pixel family (corner); "));
+}
+
+TEST(CaptureFolder, MasksThatTheCameraFileNames)
+{
+  const TemporaryFolder folder;
+  folder.write("transforms.json", transforms("images/a.jpg", "\"mask_path\": \"./m/x.png\", "));
+  folder.write("images/a.jpg");
+  folder.write("masks/a.png");
+  EXPECT_TRUE(holds(errorIn(folder), "transforms.json frame 0, 'images/a.jpg': the mask './m/x.png' of view 'images/a.jpg' is missing: there is no " +
+                                         (folder.path() / "m/x.png").string()));
+  EXPECT_EQ(captureViewNames(folder.path()), std::vector<std::string>{"images/a.jpg"});
+  folder.write("m/x.png");
+  EXPECT_EQ(describeCapture(folder.path()).entries.at(0).mask, folder.path() / "m/x.png") << "not that of its stem";
+  const std::vector<std::filesystem::path> files = captureFiles(folder.path());
+  EXPECT_EQ(std::count(files.begin(), files.end(), folder.path() / "m/x.png"), 1);
+}
+
+TEST(CaptureFolder, ImageSizesThatTheCameraFileDoesNotSay)
+{
+  const TemporaryFolder folder;
+  const std::string pose = R"("transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}]})";
+  folder.write("transforms.json", R"({"camera_angle_x": 1.5, "frames": [{"file_path": "train/r_0", )" + pose);
+  folder.write("train/r_0.png");
+  EXPECT_TRUE(holds(errorIn(folder), "transforms.json frame 0, 'train/r_0.png': the camera file does not say the image's size"));
+  EXPECT_EQ(captureViewNames(folder.path()), std::vector<std::string>{"train/r_0.png"}) << "names need no size";
+  EXPECT_EQ(captureFiles(folder.path()).size(), 2u);
+  CaptureOptions options;
+  options.sizeOf = [&](const std::filesystem::path& file)
+  {
+    EXPECT_EQ(file, folder.path() / "train/r_0.png");
+    return std::array<int, 2>{200, 100};
+  };
+  const Projection projection = describeCapture(folder.path(), options).entries.at(0).projection;
+  EXPECT_NEAR(projection(0, 0), 100.0 / std::tan(0.75), 1e-9);
+  EXPECT_NEAR(projection(0, 2), -99.5, 1e-9) << "the camera looks along -z";
+  EXPECT_NEAR(projection(1, 2), -49.5, 1e-9);
 }
 
 TEST(CaptureFolder, MissingImages)

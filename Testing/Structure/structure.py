@@ -30,17 +30,18 @@ KINDS = (
     ("OpenCV", re.compile(r"[<\"]opencv")),
     ("VTK", re.compile(r"[<\"](vtk\w*\.h|vtk\w+/)")),
     ("OSMesa", re.compile(r"[<\"]GL/osmesa\.h")),
-    ("the program's libraries", re.compile(r"[<\"](CLI|nlohmann)/")),
+    ("the program's libraries", re.compile(r"[<\"]CLI/")),
+    ("nlohmann-json", re.compile(r"[<\"]nlohmann/")),
     ("the system", re.compile(r"<(sys/)?[a-z]+\.h>")),
 )
 
 # Kinds that each room may include; what is of no kind may be included nowhere.
 ALLOWED = {
     "Filters/Core": {"the C++ library", "Eigen", "Qhull"},
-    "Filters/Capture": {"the C++ library", "files", "Eigen", "OpenCV"},
+    "Filters/Capture": {"the C++ library", "files", "Eigen", "OpenCV", "nlohmann-json"},
     "Filters/Modeling": {"the C++ library", "files", "Eigen", "VTK"},
     "Filters/OffScreen": {"the C++ library", "VTK", "OSMesa", "the system"},
-    "Wrapping": {"the C++ library", "files", "VTK", "the program's libraries", "the system"},
+    "Wrapping": {"the C++ library", "files", "VTK", "the program's libraries", "nlohmann-json", "the system"},
     "Examples": {"the C++ library", "files", "VTK", "the system"},
 }
 

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CameraFormats.h"
+
+#include "ColmapCameras.h"
+#include "Error.h"
+#include "ImageSearch.h"
+#include "ListedCameras.h"
+#include "TransformsCameras.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+namespace silhouette
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> firstOf(const std::vector<fs::path>& candidates)
+{
+  const auto found = std::find_if(candidates.begin(), candidates.end(), isFile);
+  return found == candidates.end() ? std::vector<fs::path>() : std::vector<fs::path>{*found};
+}
+
+std::vector<fs::path> projectionListsIn(const fs::path& folder)
+{
+  return firstOf({folder / "projections.txt"});
+}
+
+std::vector<fs::path> middleburyFilesIn(const fs::path& folder)
+{
+  const std::string ending = "_par.txt";
+  std::vector<fs::path> files = filesOf(folder);
+  const auto differs = [&](const fs::path& file)
+  {
+    const std::string name = file.filename().string();
+    return name.size() < ending.size() || name.compare(name.size() - ending.size(), ending.size(), ending) != 0;
+  };
+  files.erase(std::remove_if(files.begin(), files.end(), differs), files.end());
+  return files;
+}
+
+std::vector<fs::path> transformsIn(const fs::path& folder)
+{
+  return firstOf({folder / "transforms.json", folder / "transforms_train.json"});
+}
+
+std::vector<fs::path> colmapModelsIn(const fs::path& folder)
+{
+  return firstOf({colmapModelIn(folder), colmapModelIn(folder / "sparse"), colmapModelIn(folder / "sparse" / "0")});
+}
+
+fs::path ownFolder(const fs::path& file)
+{
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/** So many folders above. */
+fs::path above(fs::path folder, int count)
+{
+  for (int n = 0; n < count; ++n)
+  {
+    folder /= "..";
+  }
+  folder = folder.lexically_normal();
+  return folder.has_filename() ? folder : folder.parent_path(); // without a slash at its end
+}
+
+/** A model lies in the capture's folder, in its folder `sparse`, or in a folder of that. */
+fs::path folderOfColmap(const fs::path& file)
+{
+  std::error_code error;
+  const fs::path model = ownFolder(file);
+  const fs::path full = above(fs::absolute(model, error), 0); // "." has no name of its own
+  return full.filename() == "sparse" ? above(model, 1) : full.parent_path().filename() == "sparse" ? above(model, 2) : model;
+}
+
+/** Camera files of programs that are not read, told by how they begin, are refused; anything else may be a list. */
+bool isProjectionList(const fs::path& file, const std::string& beginning)
+{
+  static constexpr const char* Json = "JSON without a list \"frames\"";
+  static constexpr std::array<std::array<const char*, 2>, 9> kinds = {{{"{\n", Json}, {"{\r", Json}, {"{ ", Json}, {"{\"", Json},
+                                                                      {"<?xml", "XML, as Metashape's and OpenCV's"},
+                                                                      {"<opencv_storage", "OpenCV's XML"},
+                                                                      {"%YAML", "YAML, as OpenCV's"},
+                                                                      {"CONTOUR\n", "PMVS's, of one view"},
+                                                                      {"CONTOUR\r", "PMVS's, of one view"}}};
+  for (const auto& [begin, kind] : kinds)
+  {
+    if (beginning.compare(0, std::string(begin).size(), begin) == 0)
+    {
+      throw InvalidInput(file.string() + ": this looks like " + kind +
+                         ", which is not read; a P list has a line for each view, the image's name and the 12 numbers of its 3 x 4 "
+                         "matrix, row by row, from the world to pixels of the undistorted image");
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+const std::vector<CameraFormatTraits>& cameraFormats()
+{
+  static const std::vector<CameraFormatTraits> formats = {
+      {CameraFormat::ProjectionList, "P list", "projections.txt (a P list)", "", true, projectionListsIn, isProjectionList, ownFolder,
+       readProjectionList},
+      {CameraFormat::Middlebury, "Middlebury", "*_par.txt (Middlebury)", "", false, middleburyFilesIn, isMiddlebury, ownFolder, readMiddlebury},
+      {CameraFormat::Transforms, "transforms.json", "transforms.json, transforms_train.json (NeRF, nerfstudio)", "corner", false, transformsIn,
+       [](const fs::path&, const std::string& beginning) { return isTransforms(beginning); }, ownFolder, readTransformsCameras},
+      {CameraFormat::Colmap, "COLMAP", "cameras and images, .bin or .txt, in it, in its sparse or sparse/0 (COLMAP)", "corner", false, colmapModelsIn,
+       [](const fs::path& file, const std::string&) { return isColmapFile(file); }, folderOfColmap, readColmapCameras},
+  };
+  return formats;
+}
+
+const CameraFormatTraits& traitsOf(CameraFormat format)
+{
+  const auto& formats = cameraFormats();
+  return *std::find_if(formats.begin(), formats.end(), [&](const CameraFormatTraits& one) { return one.format == format; });
+}
+
+const CameraFormatTraits& formatOf(const fs::path& file)
+{
+  std::string beginning(std::size_t(64) << 10, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(beginning.data(), std::streamsize(beginning.size()));
+  beginning.resize(std::size_t(stream.gcount()));
+  const auto& formats = cameraFormats();
+  return *std::find_if(formats.rbegin(), formats.rend(), [&](const CameraFormatTraits& one) { return one.fits(file, beginning); });
+}
+
+} // namespace silhouette
