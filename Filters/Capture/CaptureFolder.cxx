@@ -300,6 +300,11 @@ std::vector<std::string> captureViewNames(const fs::path& folderOrCameraFile)
   return namesOf(readCameraFile(locateCapture(folderOrCameraFile).cameraFile));
 }
 
+std::string statedPixelFamily(const fs::path& folderOrCameraFile)
+{
+  return formatOf(locateCapture(folderOrCameraFile).cameraFile).pixelFamily;
+}
+
 std::vector<fs::path> captureFiles(const fs::path& folderOrCameraFile)
 {
   const CaptureDescription capture = locateCapture(folderOrCameraFile);

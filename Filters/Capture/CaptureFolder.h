@@ -71,6 +71,9 @@ struct CaptureDescription
 /** Names of all views of the camera file, in its order. Throws InvalidInput as describeCapture(), where it finds or reads no camera file. */
 std::vector<std::string> captureViewNames(const std::filesystem::path& folderOrCameraFile);
 
+/** The pixel family that the camera file's format states, "corner" or "integer"; empty where it states none. Throws as captureViewNames(), where it finds no camera file. */
+std::string statedPixelFamily(const std::filesystem::path& folderOrCameraFile);
+
 /**
  * All files that the cameras are read from, the photographs and masks of all its views, as far as they are there, and what else lies in images/ and masks/. Throws InvalidInput as
  * captureViewNames().

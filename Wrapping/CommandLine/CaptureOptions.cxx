@@ -32,8 +32,9 @@ void CaptureOptions::addTo(CLI::App& command)
                                              "(default: all, or those that the capture lists as good)")
     ->type_name("LIST")
     ->group("Capture");
-  command.add_option("--pixels", this->PixelFamily, "Where the camera file puts the first pixel's centre: integer, "
-                                                    "at (0, 0), or corner, at (0.5, 0.5)")
+  command.add_option("--pixels", this->PixelFamily, "Where a camera file whose format does not say it (projections.txt, "
+                                                    "*_par.txt) puts the first pixel's centre: integer, at (0, 0), or "
+                                                    "corner, at (0.5, 0.5)")
     ->type_name("FAMILY")
     ->check(CLI::IsMember({ "integer", "corner" }))
     ->capture_default_str()
@@ -160,16 +161,22 @@ bool CaptureOptions::dilates() const
     [operation](const auto& one) { return one.first == operation && one.second > 0; });
 }
 
-void CaptureOptions::checkViews(const std::string& capture) const
+void CaptureOptions::checkCapture(const std::string& capture) const
 {
   std::vector<std::string> names;
+  std::string family;
   try
   {
     names = captureViewNames(capture);
+    family = statedPixelFamily(capture);
   }
   catch (const Error&)
   {
     return; // its reader will say
+  }
+  if (!family.empty() && this->PixelFamily == "corner")
+  {
+    throw CLI::ValidationError("--pixels", "this camera file's format states its pixel family (" + family + "), which is not to be chosen");
   }
   try
   {
@@ -183,7 +190,7 @@ void CaptureOptions::checkViews(const std::string& capture) const
 
 void CaptureOptions::configure(const std::string& capture, vtkSilhouetteCaptureReader* reader) const
 {
-  this->checkViews(capture);
+  this->checkCapture(capture);
   reader->SetFileName(capture.c_str());
   reader->SetViews(this->Views.empty() ? nullptr : this->Views.c_str());
   reader->SetPixelFamily(this->PixelFamily == "corner" ? vtkSilhouetteCaptureReader::CORNER

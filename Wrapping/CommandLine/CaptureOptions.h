@@ -41,7 +41,7 @@ private:
   void addCriteria(CLI::App& command);
   void addClean(CLI::App& command);
   void checkReach() const;
-  void checkViews(const std::string& capture) const;
+  void checkCapture(const std::string& capture) const;
   bool hasCriteria() const;
 
   CLI::App* Command = nullptr;
