@@ -3,8 +3,8 @@
  * @class   vtkSilhouetteCaptureReader
  * @brief   read a capture: calibrated photographs, or their masks
  *
- * Reads the images and camera matrices of a folder or of a camera file. Two layouts are understood: a P list
- * (`projections.txt`: image name and the 3 x 4 matrix, a line a view) and Middlebury's `*_par.txt`.
+ * Reads the images and camera matrices of a folder or of a camera file: a P list (`projections.txt`: image name and the 3 x 4 matrix, a
+ * line a view), Middlebury's `*_par.txt`, `transforms.json` of NeRF, Blender and nerfstudio, or a COLMAP model. Lens distortion is taken out of the images.
  *
  * | port | data set | array | type, components | meaning |
  * | --- | --- | --- | --- | --- |
@@ -14,26 +14,32 @@
  * | | | field `SignIsFree` | int, 1 | 1 where the camera file leaves the matrix's sign open, as a P list does |
  * | output 1 | vtkPolyData, lines | cells `View` | int, 1 | the cameras: centre, image corners; the view's number |
  *
- * | format | pixel family | sign of w | images |
- * | --- | --- | --- | --- |
- * | P list | integer: (0, 0) is the first pixel's centre; an option | free: made positive at the object | `images/` and `masks/` with equal stems, or beside the camera file |
- * | Middlebury | not stated: integer; an option | positive in front | the same |
+ * | format | pixel family | sign of w | lens | images |
+ * | --- | --- | --- | --- | --- |
+ * | P list | not stated: integer, (0, 0) is the first pixel's centre; an option | free: made positive at the object | none | `images/` and `masks/` with equal stems, or beside the camera file |
+ * | Middlebury | not stated: integer; an option | positive in front | none | the same |
+ * | transforms.json | corner: brought to integer | positive in front | k1 k2 p1 p2 k3; fisheye k1 to k4 | as the file names them, masks by `mask_path`; or as above |
+ * | COLMAP: cameras and images, .bin or .txt | corner: brought to integer | positive in front | all models up to FULL_OPENCV, SIMPLE_RADIAL_FISHEYE, RADIAL_FISHEYE | as of a P list; beside the model, or beside the folder `sparse` that it lies in |
+ *
+ * In a folder they are looked for in this order, COLMAP's in the folder, in `sparse`, then in `sparse/0`. The matrices of output 0 are of the integer family.
  *
  * Images are PNG, JPEG, PNM (P5, P6), BMP (8 or 24 bits) or TIFF; 16-bit values are brought to 8 bits. Where a
  * `*_good_silhouette_images.txt` exists only its views are read, unless Views says otherwise.
  *
  * Steps: the camera file is read and each view's files are found; images are decoded side by side, each by a
- * reader of its own; a P list's matrices are negated where the object would lie
+ * reader of its own; where a camera has a lens that bends, its image becomes that of one that does not, of the same focal lengths, principal point and size, masks of two
+ * values keeping these; a P list's matrices are negated where the object would lie
  * behind the camera: the object is the point nearest the rays through the silhouettes' centroids, or through
  * the images' centres where they are photographs, of which vtkSilhouetteExtractor finds the silhouettes and
  * looks again.
  *
  * Cost and memory: the images'. All views are given to every piece; the cameras to the first.
  *
- * Limits: no lens distortion; no Exif rotation, of which a warning tells; files that change are not noticed: call
+ * Limits: what comes to lie beyond an image that is undistorted is cut off, and it has at most 32766 pixels a side; no Exif rotation, of which a warning tells; files that change are not noticed: call
  * Modified(). Warnings, output made: images that no view finds, masks that none finds where a view has none, data that are damaged but were read. Errors
- * (message naming the file, empty outputs): no camera file (`projections.txt` comes first), several `*_par.txt` without it, a line that is not understood, a
- * missing or unreadable image, a mask of another size than its photograph. AbortExecute is honoured: the
+ * (message naming the file, empty outputs): no camera file (`projections.txt` comes first), several `*_par.txt` without it, a line that is not understood, a camera
+ * model that is not read, the corner family asked for where the format states its own, a
+ * missing or unreadable image, a mask of another size than its photograph, an image of another size than its camera is for. AbortExecute is honoured: the
  * outputs are then empty, without an error; VTK does not run an aborted or failed filter again by itself:
  * call Modified() to ask for it.
  *
@@ -95,14 +101,14 @@ public:
   ///@}
 
   ///@{
-  /** The camera file's pixel coordinates: INTEGER (default) or CORNER; half a pixel apart. */
+  /** The pixel coordinates of a camera file whose format does not state them: INTEGER (default) or CORNER; half a pixel apart. CORNER is an error with a format that does. */
   vtkSetClampMacro(PixelFamily, int, INTEGER, CORNER);
   vtkGetMacro(PixelFamily, int);
   void SetPixelFamilyToInteger() { this->SetPixelFamily(INTEGER); }
   void SetPixelFamilyToCorner() { this->SetPixelFamily(CORNER); }
   ///@}
 
-  /** 1 where `fileName` is a capture's folder or camera file. Opens no image. */
+  /** 1 where `fileName` is a capture's folder or camera file. Decodes no image. */
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 
   /** The second output: the cameras. */

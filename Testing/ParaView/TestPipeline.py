@@ -143,6 +143,17 @@ class TestReader(plugin.PluginTest):
         file.write_text("%d\n" % len(names) + "".join(name + camera + "\n" for name in names))
         self.assertIn("SilhouetteCaptureReader", self.readers_of(file))
 
+    def test_offered_for_other_programs(self):
+        self.write_capture()
+        names = sorted(path.name for path in self.folder.glob("*.png"))
+        self.camera_file.unlink()
+        (self.folder / "cameras.txt").write_text("1 SIMPLE_PINHOLE 64 64 100 32 32\n")
+        (self.folder / "images.txt").write_text("".join(f"{n} 1 0 0 0 0 0 5 1 {name}\n\n" for n, name in enumerate(names)))
+        frames = ", ".join(f'{{"file_path": "{name}", "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,5],[0,0,0,1]]}}' for name in names)
+        (self.folder / "transforms.json").write_text(f'{{"camera_angle_x": 0.7, "frames": [{frames}]}}')
+        for name in ("cameras.txt", "images.txt", "transforms.json"):
+            self.assertIn("SilhouetteCaptureReader", self.readers_of(self.folder / name))
+
     def test_a_capture_from_disk(self):
         capture = self.write_capture()
         reader = SilhouetteCaptureReader(FileName=str(self.camera_file))

@@ -51,8 +51,10 @@ Reconstruct::Reconstruct(CLI::App& program)
   this->App = addCommand(program, "reconstruct", Description);
   this->App
     ->add_option("CAPTURE", this->Options.capture, "A folder with images/ or masks/ and projections.txt (image name and "
-                                                   "the 12 numbers of the 3 x 4 matrix, a line a view) or a "
-                                                   "Middlebury *_par.txt; or one of these files")
+                                                   "the 12 numbers of the 3 x 4 matrix, a line a view), a Middlebury "
+                                                   "*_par.txt, a transforms.json (NeRF, Blender, nerfstudio) or a COLMAP "
+                                                   "model (cameras and images, .bin or .txt, there or in sparse or "
+                                                   "sparse/0); or one of these files. Lens distortion is taken out")
     ->required();
   this->addOutputs();
   this->Options.silhouettes.addTo(*this->App);
