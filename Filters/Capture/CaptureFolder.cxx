@@ -335,8 +335,8 @@ CaptureDescription describeCapture(const fs::path& folderOrCameraFile, const Cap
   const CameraFormatTraits& traits = traitsOf(cameras.format);
   if (options.cornerFamily && *traits.pixelFamily)
   {
-    throw InvalidInput(capture.cameraFile.string() + ": " + traits.name + " states its pixel family (" + traits.pixelFamily +
-                       "); the corner family is a choice for formats that state none");
+    throw InvalidInput(capture.cameraFile.string() + ": its format, " + traits.name + ", states its pixel family, " + traits.pixelFamily +
+                       "; the corner family is a choice for formats that state none");
   }
   capture.format = traits.name;
   capture.freeSign = traits.freeSign;

@@ -3,13 +3,13 @@
 
 #include "ColmapFiles.h"
 #include "Error.h"
+#include "ImageSearch.h"
 #include "TextParsing.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -30,12 +30,6 @@ struct Camera
   int width = 0;
   int height = 0;
 };
-
-bool isFile(const fs::path& path)
-{
-  std::error_code error;
-  return fs::is_regular_file(path, error);
-}
 
 int sizeOf(std::uint64_t length, const ColmapCamera& camera, const char* what)
 {

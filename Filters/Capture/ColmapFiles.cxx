@@ -251,7 +251,7 @@ public:
   /** Up to a zero byte. */
   std::string text()
   {
-    constexpr std::size_t Longest = 65536;
+    constexpr std::size_t Longest = 65536; // a path is shorter
     std::string text;
     while (const auto c = char(this->unsignedNumber(1)))
     {

@@ -66,8 +66,9 @@ void checkStatedSize(const CaptureEntry& entry, const std::filesystem::path& fil
   image->GetDimensions(size);
   if ((entry.width > 0 && size[0] != entry.width) || (entry.height > 0 && size[1] != entry.height))
   {
-    throw InvalidInput("image " + file.string() + " has " + sizeText({size[0], size[1]}) + " pixels, its camera is for " +
-                       sizeText({entry.width, entry.height}));
+    const auto side = [](int length) { return length > 0 ? std::to_string(length) : std::string("any"); };
+    throw InvalidInput("image " + file.string() + " has " + sizeText({size[0], size[1]}) + " pixels, its camera is for " + side(entry.width) + " x " +
+                       side(entry.height));
   }
 }
 

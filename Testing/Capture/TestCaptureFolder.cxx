@@ -258,9 +258,9 @@ TEST(CaptureFolder, FamiliesThatAreStated)
   CaptureOptions options;
   options.cornerFamily = true;
   folder.write("transforms.json", transforms("a"));
-  EXPECT_TRUE(holds(errorIn(folder, options), "transforms.json: transforms.json states its pixel family (corner); the corner family is a choice for formats that state none"));
+  EXPECT_TRUE(holds(errorIn(folder, options), "transforms.json: its format, transforms.json, states its pixel family, corner; the corner family is a choice for formats that state none"));
   writeColmap(folder, "sparse/", "a.png");
-  EXPECT_TRUE(holds(errorOf([&] { describeCapture(folder.path() / "sparse", options); }), "sparse/images.txt: COLMAP states its pixel family (corner); "));
+  EXPECT_TRUE(holds(errorOf([&] { describeCapture(folder.path() / "sparse", options); }), "sparse/images.txt: its format, COLMAP, states its pixel family, corner; "));
 }
 
 TEST(CaptureFolder, MasksThatTheCameraFileNames)

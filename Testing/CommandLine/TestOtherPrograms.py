@@ -131,7 +131,7 @@ class OtherProgramsTest(ProgramTest):
     def test_views_and_families(self):
         write_text(self.cameras, self.copy)
         self.bad(ARGUMENTS, ["--views", "99"], "reconstruct", self.copy, "-o", self.folder / "mesh.ply", "--views", "99")
-        self.bad(ARGUMENTS, ["--pixels", "states its pixel family (corner)"], "reconstruct", self.copy, "-o", self.folder / "mesh.ply", "--pixels", "corner")
+        self.bad(ARGUMENTS, ["--pixels", "states its pixel family, corner"], "reconstruct", self.copy, "-o", self.folder / "mesh.ply", "--pixels", "corner")
         self.reconstruct("--pixels", "integer", capture=self.copy)  # as without: no list's family is asked for
 
     def test_sizes_are_held_against_the_images(self):

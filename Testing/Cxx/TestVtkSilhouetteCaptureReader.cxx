@@ -396,7 +396,7 @@ TEST_F(VtkCapturesOfOtherPrograms, Refuses)
   expectError(this->Reader, {(this->Folder / "transforms.json").string() + " frame 0, 'images/disc0.png': k4 is 0.1; "});
   this->writeTransforms(Bent);
   this->Reader->SetPixelFamilyToCorner();
-  expectError(this->Reader, {"transforms.json states its pixel family (corner)"});
+  expectError(this->Reader, {"transforms.json: its format, transforms.json, states its pixel family, corner; "});
   this->Reader->SetPixelFamilyToInteger();
   fs::remove(this->Folder / "images/disc4.png");
   expectError(this->Reader, {"transforms.json frame 4, 'images/disc4.png': image 'images/disc4.png' is missing"});

@@ -176,7 +176,7 @@ void CaptureOptions::checkCapture(const std::string& capture) const
   }
   if (!family.empty() && this->PixelFamily == "corner")
   {
-    throw CLI::ValidationError("--pixels", "this camera file's format states its pixel family (" + family + "), which is not to be chosen");
+    throw CLI::ValidationError("--pixels", "this camera file's format states its pixel family, " + family + "; it is not to be chosen");
   }
   try
   {
