@@ -32,8 +32,8 @@ struct LensDistortion
 
 /**
  * The image of a lens without distortion and with the same K: rows from the top, `channels` interleaved bytes a pixel, 1 to 4, linear between pixels; beyond the image
- * its border's pixels go on, and what would come to lie beyond the new one is cut off. An image of two colours keeps them: each pixel takes the nearer. Throws
- * InvalidInput: a number of coefficients that the model does not have; a side that is not of 1 to 32766 pixels. Cost: a pass or two; 8 bytes a pixel.
+ * its border's pixels go on, and so they do from the radius on at which the lens's polynomial turns back; what would come to lie beyond the new image is cut off. An image of two colours keeps them: each pixel takes the nearer. Throws
+ * InvalidInput: a number of coefficients that the model does not have; a side that is not of 1 to 32766 pixels. Cost: a pass or two.
  */
 std::vector<std::uint8_t> undistorted(const std::uint8_t* pixels, int width, int height, int channels, const LensDistortion& lens);
 
