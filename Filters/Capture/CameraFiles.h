@@ -32,7 +32,11 @@ enum class CameraFormat
   ProjectionList,
   Middlebury,
   Transforms,
-  Colmap
+  Colmap,
+  OpenCv,
+  Metashape,
+  Pmvs,
+  Neus
 };
 
 /** One view of a camera file. */
@@ -56,6 +60,8 @@ struct CameraFile
   CameraFormat format = CameraFormat::ProjectionList;
   std::vector<NamedProjection> views; ///< at least one, names differ
   std::vector<std::filesystem::path> files; ///< all that were read
+  bool freeSign = false; ///< the signs of the matrices are free: w may be negative before the camera
+  std::vector<std::string> warnings; ///< what was left out, and why
 };
 
 /**

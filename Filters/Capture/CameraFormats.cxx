@@ -105,12 +105,12 @@ bool isProjectionList(const fs::path& file, const std::string& beginning)
 const std::vector<CameraFormatTraits>& cameraFormats()
 {
   static const std::vector<CameraFormatTraits> formats = {
-      {CameraFormat::ProjectionList, "P list", "projections.txt (a P list)", "", true, projectionListsIn, isProjectionList, ownFolder,
+      {CameraFormat::ProjectionList, "P list", "projections.txt (a P list)", "", projectionListsIn, isProjectionList, ownFolder,
        readProjectionList},
-      {CameraFormat::Middlebury, "Middlebury", "*_par.txt (Middlebury)", "", false, middleburyFilesIn, isMiddlebury, ownFolder, readMiddlebury},
-      {CameraFormat::Transforms, "transforms.json", "transforms.json, transforms_train.json (NeRF, nerfstudio)", "corner", false, transformsIn,
+      {CameraFormat::Middlebury, "Middlebury", "*_par.txt (Middlebury)", "", middleburyFilesIn, isMiddlebury, ownFolder, readMiddlebury},
+      {CameraFormat::Transforms, "transforms.json", "transforms.json, transforms_train.json (NeRF, nerfstudio)", "corner", transformsIn,
        [](const fs::path&, const std::string& beginning) { return isTransforms(beginning); }, ownFolder, readTransformsCameras},
-      {CameraFormat::Colmap, "COLMAP", "cameras and images, .bin or .txt, in it, in its sparse or sparse/0 (COLMAP)", "corner", false, colmapModelsIn,
+      {CameraFormat::Colmap, "COLMAP", "cameras and images, .bin or .txt, in it, in its sparse or sparse/0 (COLMAP)", "corner", colmapModelsIn,
        [](const fs::path& file, const std::string&) { return isColmapFile(file); }, folderOfColmap, readColmapCameras},
   };
   return formats;

@@ -19,7 +19,6 @@ struct CameraFormatTraits
   const char* name;          ///< in words, for people
   const char* lookedFor;     ///< the files that filesIn() looks for, in words
   const char* pixelFamily;   ///< that the format states: "corner", "integer"; empty where it states none
-  bool freeSign;             ///< the matrices' signs are free
   /** The camera files of this format in a capture's folder. None: the next format is looked for; several: nobody knows which is meant. */
   std::vector<std::filesystem::path> (*filesIn)(const std::filesystem::path& folder);
   /** Is a file that was given by its own path, and that begins like this, of this format? Asked from the last row to the first, which takes what is left. */

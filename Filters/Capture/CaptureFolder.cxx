@@ -339,7 +339,8 @@ CaptureDescription describeCapture(const fs::path& folderOrCameraFile, const Cap
                        "; the corner family is a choice for formats that state none");
   }
   capture.format = traits.name;
-  capture.freeSign = traits.freeSign;
+  capture.freeSign = cameras.freeSign;
+  capture.warnings = cameras.warnings;
   for (const int view : usedViews(capture, cameras, options))
   {
     capture.entries.push_back(makeEntry(capture, cameras.views[std::size_t(view)], options));

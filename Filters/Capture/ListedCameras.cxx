@@ -80,6 +80,7 @@ CameraFile viewsOf(const std::filesystem::path& file, const std::vector<TextLine
 {
   CameraFile cameras;
   cameras.format = format;
+  cameras.freeSign = format == CameraFormat::ProjectionList;
   cameras.files = {file};
   for (const TextLine& line : lines)
   {

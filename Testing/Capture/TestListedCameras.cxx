@@ -35,6 +35,7 @@ TEST(ListedCameras, ProjectionList)
   const CameraFile file = readCameraFile(folder.write("projections.txt", text));
   EXPECT_EQ(file.format, CameraFormat::ProjectionList);
   EXPECT_EQ(formatName(file.format), "P list");
+  EXPECT_TRUE(file.freeSign);
   ASSERT_EQ(file.views.size(), 2u);
   EXPECT_EQ(file.views[0].name, "a.png");
   EXPECT_EQ(file.views[0].line, 3);
@@ -50,6 +51,7 @@ TEST(ListedCameras, MiddleburyIsKTimesRAndT)
   const CameraFile file = readCameraFile(folder.write("a_par.txt", "1\na.png" + Middlebury + "\n"));
   EXPECT_EQ(file.format, CameraFormat::Middlebury);
   EXPECT_EQ(formatName(file.format), "Middlebury");
+  EXPECT_FALSE(file.freeSign);
   Projection expected; // by hand: rows of K times [R t]
   expected << 0, -100, 50, 250, 200, 0, 60, 580, 0, 0, 1, 3;
   EXPECT_EQ(file.views.at(0).projection, expected);
