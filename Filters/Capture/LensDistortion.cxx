@@ -156,6 +156,11 @@ public:
     {
       cv::initUndistortRectifyMap(K, this->Coefficients, cv::Mat(), rowsK, size, CV_32FC1, this->U, this->V);
     }
+    if (this->Lens.intrinsics(0, 1) != 0.0)
+    {
+      // OpenCV takes its new camera's skew into account, and leaves out the old one's: u = fx x' + cx, where s y' is missing.
+      this->U += (this->V - this->Lens.intrinsics(1, 2)) * (this->Lens.intrinsics(0, 1) / this->Lens.intrinsics(1, 1));
+    }
     for (int row = 0; this->Folds && row < count; ++row)
     {
       this->leadFoldsOutside(top, row);
