@@ -32,6 +32,7 @@ KINDS = (
     ("OSMesa", re.compile(r"[<\"]GL/osmesa\.h")),
     ("the program's libraries", re.compile(r"[<\"]CLI/")),
     ("nlohmann-json", re.compile(r"[<\"]nlohmann/")),
+    ("the camera files' libraries", re.compile(r"<(pugixml\.hpp|zlib\.h)>")),
     ("the system", re.compile(r"<(sys/)?[a-z]+\.h>")),
 )
 
@@ -39,6 +40,7 @@ KINDS = (
 ALLOWED = {
     "Filters/Core": {"the C++ library", "Eigen", "Qhull"},
     "Filters/Capture": {"the C++ library", "files", "Eigen", "OpenCV", "nlohmann-json"},
+    "Filters/Capture": {"the C++ library", "files", "Eigen", "OpenCV", "the camera files' libraries"},
     "Filters/Modeling": {"the C++ library", "files", "Eigen", "VTK"},
     "Filters/OffScreen": {"the C++ library", "VTK", "OSMesa", "the system"},
     "Wrapping": {"the C++ library", "files", "VTK", "the program's libraries", "nlohmann-json", "the system"},
