@@ -8,6 +8,10 @@
  * | Middlebury | ListedCameras.h | not stated | w > 0 in front | |
  * | transforms.json of NeRF, Blender, nerfstudio | TransformsCameras.h | corner | w > 0 in front | lens, size, masks |
  * | COLMAP | ColmapCameras.h | corner | w > 0 in front | lens, size |
+ * | OpenCV | OpenCVCameras.h | integer | w > 0 in front, of P alone free | lens, size |
+ * | Metashape | MetashapeCameras.h | corner | w > 0 in front | lens, size |
+ * | PMVS | PmvsCameras.h | integer | free | masks |
+ * | NeuS, IDR | NeusCameras.h | integer | w > 0 in front | masks |
  *
  * Where a format states its pixel family its reader brings the matrices to the integer family; where it does not,
  * integer is the default and CaptureOptions::cornerFamily the choice. How one format is told from another

@@ -5,6 +5,11 @@
 #include "Error.h"
 #include "ImageSearch.h"
 #include "ListedCameras.h"
+#include "MetashapeCameras.h"
+#include "NeusCameras.h"
+#include "OpenCVCameras.h"
+#include "PmvsCameras.h"
+#include "TextParsing.h"
 #include "TransformsCameras.h"
 
 #include <algorithm>
@@ -53,6 +58,40 @@ std::vector<fs::path> colmapModelsIn(const fs::path& folder)
   return firstOf({colmapModelIn(folder), colmapModelIn(folder / "sparse"), colmapModelIn(folder / "sparse" / "0")});
 }
 
+std::vector<fs::path> openCVFilesIn(const fs::path& folder)
+{
+  std::vector<fs::path> candidates;
+  for (const char* packed : {"", ".gz"})
+  {
+    for (const char* ending : {".yml", ".yaml", ".xml", ".json"})
+    {
+      candidates.push_back(folder / ("cameras" + std::string(ending) + packed));
+    }
+  }
+  const auto isOther = [](const fs::path& file) { return !isFile(file) || !isOpenCVCameras(file); };
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isOther), candidates.end());
+  return candidates;
+}
+
+std::vector<fs::path> metashapeFilesIn(const fs::path& folder)
+{
+  std::vector<fs::path> files = filesOf(folder);
+  const auto isOther = [](const fs::path& file) { return lowerCase(file.extension().string()) != ".xml" || !isMetashapeCameras(file); };
+  files.erase(std::remove_if(files.begin(), files.end(), isOther), files.end());
+  return files;
+}
+
+std::vector<fs::path> pmvsFilesIn(const fs::path& folder)
+{
+  return isPmvsCameras(folder) ? std::vector<fs::path>{readPmvsCameras(folder).files.front()} : std::vector<fs::path>();
+}
+
+std::vector<fs::path> neusFilesIn(const fs::path& folder)
+{
+  const auto file = neusFile(folder);
+  return file ? std::vector<fs::path>{*file} : std::vector<fs::path>();
+}
+
 fs::path ownFolder(const fs::path& file)
 {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
@@ -78,26 +117,32 @@ fs::path folderOfColmap(const fs::path& file)
   return full.filename() == "sparse" ? above(model, 1) : full.parent_path().filename() == "sparse" ? above(model, 2) : model;
 }
 
-/** Camera files of programs that are not read, told by how they begin, are refused; anything else may be a list. */
+/** Files that begin as a format's that is read, but are none of its camera files, are refused; anything else may be a list. */
 bool isProjectionList(const fs::path& file, const std::string& beginning)
 {
-  static constexpr const char* Json = "JSON without a list \"frames\"";
-  static constexpr std::array<std::array<const char*, 2>, 9> kinds = {{{"{\n", Json}, {"{\r", Json}, {"{ ", Json}, {"{\"", Json},
-                                                                      {"<?xml", "XML, as Metashape's and OpenCV's"},
+  static constexpr const char* Json = "JSON, without a list \"frames\", \"views\" or \"cameras\"";
+  static constexpr std::array<std::array<const char*, 2>, 8> kinds = {{{"{\n", Json}, {"{\r", Json}, {"{ ", Json}, {"{\"", Json},
+                                                                      {"<?xml", "XML, but neither OpenCV's nor a chunk of Metashape's"},
                                                                       {"<opencv_storage", "OpenCV's XML"},
-                                                                      {"%YAML", "YAML, as OpenCV's"},
-                                                                      {"CONTOUR\n", "PMVS's, of one view"},
-                                                                      {"CONTOUR\r", "PMVS's, of one view"}}};
+                                                                      {"CONTOUR\n", "a camera of PMVS's, but it lies in no folder txt"},
+                                                                      {"CONTOUR\r", "a camera of PMVS's, but it lies in no folder txt"}}};
   for (const auto& [begin, kind] : kinds)
   {
     if (beginning.compare(0, std::string(begin).size(), begin) == 0)
     {
       throw InvalidInput(file.string() + ": this looks like " + kind +
-                         ", which is not read; a P list has a line for each view, the image's name and the 12 numbers of its 3 x 4 "
+                         "; it is not read. A P list has a line for each view, the image's name and the 12 numbers of its 3 x 4 "
                          "matrix, row by row, from the world to pixels of the undistorted image");
     }
   }
   return true;
+}
+
+/** JSON with a list `frames` may be either's. */
+bool isOpenCVNotTransforms(const fs::path& file, const std::string& beginning)
+{
+  const bool isNamedTransforms = lowerCase(file.filename().string()).compare(0, 10, "transforms") == 0;
+  return isOpenCVCameras(file) && !(isNamedTransforms && isTransforms(beginning));
 }
 
 } // namespace
@@ -112,6 +157,14 @@ const std::vector<CameraFormatTraits>& cameraFormats()
        [](const fs::path&, const std::string& beginning) { return isTransforms(beginning); }, ownFolder, readTransformsCameras},
       {CameraFormat::Colmap, "COLMAP", "cameras and images, .bin or .txt, in it, in its sparse or sparse/0 (COLMAP)", "corner", colmapModelsIn,
        [](const fs::path& file, const std::string&) { return isColmapFile(file); }, folderOfColmap, readColmapCameras},
+      {CameraFormat::OpenCv, "OpenCV", "cameras.yml, .yaml, .xml or .json (OpenCV)", "integer", openCVFilesIn, isOpenCVNotTransforms, ownFolder, readOpenCVCameras},
+      {CameraFormat::Metashape, "Metashape", "*.xml (Metashape)", "corner", metashapeFilesIn,
+       [](const fs::path& file, const std::string&) { return isMetashapeCameras(file); }, ownFolder, readMetashapeCameras},
+      {CameraFormat::Pmvs, "PMVS", "txt/00000000.txt (PMVS)", "integer", pmvsFilesIn,
+       [](const fs::path& file, const std::string&) { return isPmvsCameras(file); }, [](const fs::path& file) { return pmvsFolder(file).value_or(ownFolder(file)); },
+       readPmvsCameras},
+      {CameraFormat::Neus, "NeuS", "cameras_sphere.npz, cameras.npz (NeuS, IDR)", "integer", neusFilesIn,
+       [](const fs::path& file, const std::string&) { return isNeusCameras(file); }, ownFolder, readNeusCameras},
   };
   return formats;
 }

@@ -54,28 +54,6 @@ Projection composedProjection(const Matrix3& intrinsics, const Matrix3& rotation
   return projection;
 }
 
-void checkViewNames(const std::vector<NamedProjection>& views, const std::string& where)
-{
-  if (views.empty())
-  {
-    throw InvalidInput(where + ": names no view");
-  }
-  std::map<std::string, std::size_t> first;
-  for (std::size_t i = 0; i < views.size(); ++i)
-  {
-    if (views[i].name.empty())
-    {
-      throw InvalidInput(where + " view " + std::to_string(i) + ": the image name is empty");
-    }
-    const auto [found, isNew] = first.emplace(views[i].name, i);
-    if (!isNew)
-    {
-      throw InvalidInput(where + " view " + std::to_string(i) + ": the image name " + inQuotes(views[i].name) +
-                         " occurs twice (first of view " + std::to_string(found->second) + ")");
-    }
-  }
-}
-
 std::string formatMatrix(const Matrix3& matrix)
 {
   std::string text;

@@ -28,9 +28,6 @@ Matrix3 rotationAbout(const Vector3& vector);
 /** K [R t], which has to be finite. */
 Projection composedProjection(const Matrix3& intrinsics, const Matrix3& rotation, const Vector3& translation, const std::string& where);
 
-/** There has to be a view, names may neither be empty nor occur twice. `where` is the file. */
-void checkViewNames(const std::vector<NamedProjection>& views, const std::string& where);
-
 /** A matrix for a message, row by row: 1 0 0, 0 1 0, 0 0 1. */
 std::string formatMatrix(const Matrix3& matrix);
 

@@ -61,14 +61,14 @@ fs::path nameWithin(const fs::path& folder, const std::string& name)
 fs::path findPhotograph(const fs::path& folder, const NamedProjection& view)
 {
   const fs::path within = nameWithin(folder, view.name);
-  for (const fs::path& candidate : {folder / "images" / within, folder / within})
+  std::vector<fs::path> candidates = {folder / "images" / within, folder / within};
+  for (const char* extension : ImageExtensions)
   {
-    if (isFile(candidate))
-    {
-      return candidate;
-    }
+    candidates.push_back(folder / "images" / (within.string() + extension));
+    candidates.push_back(folder / (within.string() + extension));
   }
-  return {};
+  const auto found = std::find_if(candidates.begin(), candidates.end(), isFile);
+  return found == candidates.end() ? fs::path() : *found;
 }
 
 std::vector<fs::path> masksOf(const fs::path& folder, const NamedProjection& view)

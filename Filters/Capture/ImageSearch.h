@@ -24,12 +24,12 @@ bool isImageName(const std::filesystem::path& path);
 /** What a name of the camera file says within the capture's folder: "./a.png" is "a.png", and so is the folder's own path before it. */
 std::filesystem::path nameWithin(const std::filesystem::path& folder, const std::string& name);
 
-/** In images/, or else from the folder itself on; empty where there is none. */
+/** In images/, or else from the folder itself on; where there is none of that name, of that name with an image's extension; empty where there is none of these either. */
 std::filesystem::path findPhotograph(const std::filesystem::path& folder, const NamedProjection& view);
 
 /**
  * The files that may be a view's mask, that which is taken first: the one that the camera file names, whether it is there or not; else of image a.jpg those of
- * a.jpg, a.png, a.jpg.png and any other image of that stem in masks/ that are there.
+ * a.jpg, a.png, a.jpg.png and any other image of that stem in masks/ that are there (of a: a.png and so on).
  */
 std::vector<std::filesystem::path> masksOf(const std::filesystem::path& folder, const NamedProjection& view);
 

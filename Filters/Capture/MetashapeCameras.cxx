@@ -378,7 +378,6 @@ CameraFile readMetashapeCameras(const std::filesystem::path& file)
   warn(cameras, unaligned, "without a transform (not aligned, or of a rig)");
   warn(cameras, disabled, "switched off");
   chunk.checkComponents();
-  checkViewNames(cameras.views, file.string());
   return cameras;
 }
 

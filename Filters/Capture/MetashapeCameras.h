@@ -32,7 +32,7 @@ bool isMetashapeCameras(const std::filesystem::path& file);
 
 /**
  * Read it. Throws InvalidInput, naming file, line and value: no XML; no chunk with cameras, or several; a camera without a label
- * or of a sensor that is not there; two of the same label; a number that is missing or not finite; a transform that is no rotation
+ * or of a sensor that is not there; a number that is missing or not finite; a transform that is no rotation
  * and shift; a focal length or a scale that is not above 0; and what OpenCV's lens models do not have: k4 (but of a fisheye),
  * p3, p4, p1 and p2 of a fisheye, sensors that are neither `frame` nor equidistant `fisheye`. Cameras of several components are
  * refused where one of these has no transform. Cost: linear in the file.

@@ -4,7 +4,7 @@
 #include "CameraGeometry.h"
 #include "Error.h"
 #include "FileBytes.h"
-#include "ImageNames.h"
+#include "ImageSearch.h"
 #include "NumpyArchive.h"
 #include "TextParsing.h"
 
@@ -44,7 +44,7 @@ ImageFolder imagesIn(const fs::path& folder, std::initializer_list<const char*> 
     {
       std::error_code ignored;
       const std::string file = at->path().filename().string();
-      if (isImageFileName(at->path()) && file[0] != '.' && fs::is_regular_file(at->path(), ignored))
+      if (isImageName(at->path()) && file[0] != '.' && fs::is_regular_file(at->path(), ignored))
       {
         images.paths.push_back(name + ("/" + file));
       }
@@ -151,7 +151,6 @@ CameraFile readNeusCameras(const fs::path& path)
     view.projection = matrices[i];
     cameras.views.push_back(std::move(view));
   }
-  checkViewNames(cameras.views, file->string());
   return cameras;
 }
 

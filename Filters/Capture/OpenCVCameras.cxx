@@ -303,9 +303,9 @@ CameraFile readOpenCVCameras(const std::filesystem::path& file)
     const bool isFree = readCamera(view, top, where, read);
     cameras.freeSign = cameras.freeSign || isFree;
     readSize(view, top, where, read);
+    read.where = where;
     cameras.views.push_back(std::move(read));
   }
-  checkViewNames(cameras.views, file.string());
   return cameras;
 }
 

@@ -38,8 +38,8 @@ namespace silhouette
 bool isOpenCVCameras(const std::filesystem::path& file);
 
 /**
- * Read it. Throws InvalidInput, naming file, view and value: what StorageTree.h throws; none or an empty
- * sequence; a view without a name, twice the same name; a matrix of another shape, a number that is not finite; K that is
+ * Read it. Throws InvalidInput, naming file, view and value: what StorageTree.h throws; none
+ * of these sequences; a view without a name; a matrix of another shape, a number that is not finite; K that is
  * not fx s cx, 0 fy cy, 0 0 1; R that is no rotation; a number of coefficients that the model does not have. Cost: linear in the file.
  */
 CameraFile readOpenCVCameras(const std::filesystem::path& file);

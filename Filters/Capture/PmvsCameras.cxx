@@ -4,7 +4,7 @@
 #include "CameraGeometry.h"
 #include "Error.h"
 #include "FileBytes.h"
-#include "ImageNames.h"
+#include "ImageSearch.h"
 #include "TextParsing.h"
 
 #include <algorithm>
@@ -130,8 +130,8 @@ CameraFile readPmvsCameras(const fs::path& path)
   {
     throw InvalidInput(path.string() + ": has no folder txt with cameras of PMVS (00000000.txt, which begins with CONTOUR)");
   }
-  const auto images = numberedFiles(*folder / "visualize", isImageFileName);
-  const auto masks = numberedFiles(*folder / "masks", isImageFileName);
+  const auto images = numberedFiles(*folder / "visualize", isImageName);
+  const auto masks = numberedFiles(*folder / "masks", isImageName);
   CameraFile cameras;
   cameras.format = CameraFormat::Pmvs;
   cameras.freeSign = true;
@@ -150,7 +150,6 @@ CameraFile readPmvsCameras(const fs::path& path)
     view.name = view.name.empty() ? view.mask : view.name;
     cameras.views.push_back(std::move(view));
   }
-  checkViewNames(cameras.views, folder->string());
   return cameras;
 }
 

@@ -4,7 +4,8 @@
  * @brief   read a capture: calibrated photographs, or their masks
  *
  * Reads the images and camera matrices of a folder or of a camera file: a P list (`projections.txt`: image name and the 3 x 4 matrix, a
- * line a view), Middlebury's `*_par.txt`, `transforms.json` of NeRF, Blender and nerfstudio, or a COLMAP model. Lens distortion is taken out of the images.
+ * line a view), Middlebury's `*_par.txt`, `transforms.json` of NeRF, Blender and nerfstudio, a COLMAP model, or cameras of OpenCV, Metashape, PMVS or NeuS. Lens
+ * distortion is taken out of the images.
  *
  * | port | data set | array | type, components | meaning |
  * | --- | --- | --- | --- | --- |
@@ -20,6 +21,10 @@
  * | Middlebury | not stated: integer; an option | positive in front | none | the same |
  * | transforms.json | corner: brought to integer | positive in front | k1 k2 p1 p2 k3; fisheye k1 to k4 | as the file names them, masks by `mask_path`; or as above |
  * | COLMAP: cameras and images, .bin or .txt | corner: brought to integer | positive in front | all models up to FULL_OPENCV, SIMPLE_RADIAL_FISHEYE, RADIAL_FISHEYE | as of a P list; beside the model, or beside the folder `sparse` that it lies in |
+ * | OpenCV: cameras.yml, .yaml, .xml, .json | integer | positive in front; of P alone free | OpenCV's, and its fisheye | as of a P list |
+ * | Metashape: *.xml | corner: brought to integer | positive in front | k1 k2 k3 p1 p2 b1 b2; fisheye k1 to k4 | as of a P list |
+ * | PMVS: txt/00000000.txt | integer | free | none | `visualize/` and `masks/` |
+ * | NeuS, IDR: cameras_sphere.npz, cameras.npz | integer | positive in front | none | `image/` and `mask/`, by sorted order |
  *
  * In a folder they are looked for in this order, COLMAP's in the folder, in `sparse`, then in `sparse/0`. The matrices of output 0 are of the integer family.
  *
@@ -28,7 +33,7 @@
  *
  * Steps: the camera file is read and each view's files are found; images are decoded side by side, each by a
  * reader of its own; where a camera has a lens that bends, its image becomes that of one that does not, of the same focal lengths, principal point and size, masks of two
- * values keeping these; a P list's matrices are negated where the object would lie
+ * values keeping these; matrices of free sign are negated where the object would lie
  * behind the camera: the object is the point nearest the rays through the silhouettes' centroids, or through
  * the images' centres where they are photographs, of which vtkSilhouetteExtractor finds the silhouettes and
  * looks again.

@@ -3,7 +3,9 @@
 
 #include "CaptureTesting.h"
 
+#include <array>
 #include <set>
+#include <utility>
 
 using namespace silhouette;
 
@@ -38,7 +40,14 @@ TEST(CameraFormats, AreToldFromOneAnother)
   EXPECT_EQ(formatOfText("cameras.dat", "a.png" + Identity), CameraFormat::ProjectionList);
   EXPECT_EQ(formatOfText("a_par.txt", "a.png" + Identity), CameraFormat::Middlebury);
   EXPECT_EQ(formatOfText("cameras.txt", "\xEF\xBB\xBF# two\r\n\r\n 2 # views\r\na.png"), CameraFormat::Middlebury);
-  EXPECT_EQ(formatOfText("x.json", "{\"w\": 5, \"frames\": []}"), CameraFormat::Transforms);
+  EXPECT_EQ(formatOfText("transforms.json", "{\"w\": 5, \"frames\": []}"), CameraFormat::Transforms);
+  EXPECT_EQ(formatOfText("x.json", "{\"frames\": [{\"file_path\": \"a\", \"transform_matrix\": []}]}"), CameraFormat::Transforms);
+  EXPECT_EQ(formatOfText("x.json", "{\"frames\": [{\"image\": \"a\", \"P\": []}]}"), CameraFormat::OpenCv);
+  EXPECT_EQ(formatOfText("cameras.yml", "%YAML:1.0\n---\n"), CameraFormat::OpenCv);
+  EXPECT_EQ(formatOfText("cameras.xml", "<?xml version=\"1.0\"?>\n<opencv_storage>\n"), CameraFormat::OpenCv);
+  EXPECT_EQ(formatOfText("cameras.xml", "<?xml version=\"1.0\"?>\n<document version=\"1.5\"><chunk>\n"), CameraFormat::Metashape);
+  EXPECT_EQ(formatOfText("txt/00000004.txt", "CONTOUR\n1 0 0 0\n"), CameraFormat::Pmvs);
+  EXPECT_EQ(formatOfText("cameras.npz", "PK\x03\x04"), CameraFormat::Neus);
   EXPECT_EQ(formatOfText("cameras.txt", "# Camera list with one line of data per camera:\n1 PINHOLE 4 4 1 1 2 2\n"), CameraFormat::Colmap);
   EXPECT_EQ(formatOfText("images.bin", ""), CameraFormat::Colmap);
   for (const char* name : {"CONTOUR-1.png", "{a}.png"}) // images may be called so
@@ -49,14 +58,41 @@ TEST(CameraFormats, AreToldFromOneAnother)
 
 TEST(CameraFormats, WhatIsNotReadIsCalledByItsName)
 {
-  for (const auto& [bytes, kind] : {std::pair("{\n  \"views\": []\n}", "JSON without a list \"frames\""), {"<?xml version=\"1.0\"?>", "Metashape"},
-                                    {"%YAML:1.0\n---", "OpenCV"}, {"CONTOUR\n1 0 0 0", "PMVS"}})
+  for (const auto& [bytes, kind] : {std::pair("{\n  \"poses\": []\n}", "JSON, without a list \"frames\", \"views\" or \"cameras\""),
+                                    {"<?xml version=\"1.0\"?>", "XML, but neither OpenCV's nor a chunk of Metashape's"},
+                                    {"CONTOUR\n1 0 0 0", "a camera of PMVS's, but it lies in no folder txt"}})
   {
     const TemporaryFolder folder;
     const std::string error = errorOf([&] { readCameraFile(folder.write("cameras.txt", bytes)); });
     EXPECT_TRUE(holds(error, kind));
     EXPECT_TRUE(holds(error, "cameras.txt: this looks like"));
     EXPECT_TRUE(holds(error, "undistorted"));
+  }
+}
+
+/** Of each format the camera file, and what is found once it lies in the folder beside those of the formats that come later. */
+TEST(CameraFormats, AFolderIsSearchedInTheirOrder)
+{
+  const TemporaryFolder folder;
+  folder.write("visualize/00000000.jpg");
+  const std::array<std::pair<const char*, std::string>, 7> files = {{{"cameras.npz", "PK\x03\x04"},
+                                                                    {"txt/00000000.txt", "CONTOUR\n1 0 0 0 0 1 0 0 0 0 1 0\n"},
+                                                                    {"my.xml", "<document><chunk>"},
+                                                                    {"cameras.yml", "%YAML:1.0\n---\nviews: []\n"},
+                                                                    {"sparse/0/cameras.txt", ""},
+                                                                    {"transforms.json", "{\"frames\": []}"},
+                                                                    {"projections.txt", ""}}};
+  folder.write("sparse/0/images.txt", "");
+  for (const auto& [name, text] : files)
+  {
+    folder.write(name, text);
+    std::vector<std::filesystem::path> found;
+    for (const CameraFormatTraits& traits : cameraFormats())
+    {
+      found = found.empty() ? traits.filesIn(folder.path()) : found;
+    }
+    ASSERT_EQ(found.size(), 1u) << name;
+    EXPECT_TRUE(found[0] == folder.path() / name || found[0].parent_path() == (folder.path() / name).parent_path()) << found[0];
   }
 }
 

@@ -14,13 +14,6 @@ Matrix3 matrix(std::initializer_list<double> numbers)
   return Eigen::Map<const Matrix3>(numbers.begin());
 }
 
-NamedProjection named(const std::string& name)
-{
-  NamedProjection view;
-  view.name = name;
-  return view;
-}
-
 } // namespace
 
 TEST(CameraGeometry, ComposedProjection)
@@ -59,13 +52,4 @@ TEST(CameraGeometry, WhatIsNoCameraIsRefused)
   EXPECT_EQ(checkedRotation(Matrix3::Identity(), "a"), Matrix3::Identity());
   EXPECT_EQ(errorOf([] { checkedRotation(-Matrix3::Identity(), "a"); }), "a: R is no rotation: -1 -0 -0, -0 -1 -0, -0 -0 -1");
   EXPECT_EQ(errorOf([] { checkedRotation(matrix({ 1, 0, 0, 0, 1, 0, 0, 0, 1.01 }), "a"); }), "a: R is no rotation: 1 0 0, 0 1 0, 0 0 1.01");
-}
-
-TEST(CameraGeometry, ViewNames)
-{
-  EXPECT_NO_THROW(checkViewNames({ named("a"), named("b") }, "c.yml"));
-  EXPECT_EQ(errorOf([] { checkViewNames({}, "c.yml"); }), "c.yml: names no view");
-  EXPECT_EQ(errorOf([] { checkViewNames({ named("a"), named("") }, "c.yml"); }), "c.yml view 1: the image name is empty");
-  EXPECT_EQ(errorOf([] { checkViewNames({ named("a"), named("b"), named("a") }, "c.yml"); }),
-            "c.yml view 2: the image name 'a' occurs twice (first of view 0)");
 }

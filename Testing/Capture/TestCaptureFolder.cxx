@@ -184,7 +184,8 @@ TEST(CaptureFolder, CameraFileIsLookedFor)
   const TemporaryFolder folder;
   EXPECT_TRUE(holds(errorIn(folder),
                     ": no camera file; looked for projections.txt (a P list), *_par.txt (Middlebury), transforms.json, transforms_train.json (NeRF, nerfstudio), "
-                    "cameras and images, .bin or .txt, in it, in its sparse or sparse/0 (COLMAP)"));
+                    "cameras and images, .bin or .txt, in it, in its sparse or sparse/0 (COLMAP), cameras.yml, .yaml, .xml or .json (OpenCV), *.xml (Metashape), "
+                    "txt/00000000.txt (PMVS), cameras_sphere.npz, cameras.npz (NeuS, IDR)"));
   folder.write("b_par.txt", "1\na.png" + Krt);
   folder.write("a_par.txt", "1\na.png" + Krt);
   EXPECT_TRUE(

@@ -40,6 +40,9 @@ TEST(ImageSearch, Photographs)
   EXPECT_EQ(findPhotograph(folder.path(), viewOf("./b.png")), folder.path() / "b.png");
   EXPECT_EQ(findPhotograph(folder.path(), viewOf("images/a.png")), folder.path() / "images" / "a.png");
   EXPECT_TRUE(findPhotograph(folder.path(), viewOf("c.png")).empty());
+  folder.write("images/frame.0001.jpg");
+  EXPECT_EQ(findPhotograph(folder.path(), viewOf("a")), folder.path() / "images" / "a.png") << "an ending may be missing";
+  EXPECT_EQ(findPhotograph(folder.path(), viewOf("frame.0001")), folder.path() / "images" / "frame.0001.jpg");
 }
 
 TEST(ImageSearch, Masks)
@@ -52,6 +55,7 @@ TEST(ImageSearch, Masks)
   EXPECT_EQ(findMask(folder.path(), viewOf("cam/a.jpg")), folder.path() / "masks/cam/a.jpg.png");
   EXPECT_EQ(findMask(folder.path(), viewOf("images/b.jpg")), folder.path() / "masks/b.png");
   EXPECT_EQ(findMask(folder.path(), viewOf("../images/d.png")), folder.path() / "masks/d.png") << "not the photograph";
+  EXPECT_EQ(findMask(folder.path(), viewOf("b")), folder.path() / "masks/b.png");
   EXPECT_TRUE(findMask(folder.path(), viewOf("c.png")).empty());
   EXPECT_EQ(findMask(folder.path(), viewOf("b.jpg", "elsewhere/b.png")), folder.path() / "elsewhere/b.png") << "as the camera file names it";
   EXPECT_EQ(findMask(folder.path(), viewOf("b.jpg", folder.path().string() + "/masks/d.png")), folder.path() / "masks/d.png");

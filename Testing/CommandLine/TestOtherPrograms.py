@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One capture with its cameras as a P list, as COLMAP writes them, text and binary, and as transforms.json: one mesh."""
+"""One capture with its cameras as a P list and as other programs write them: one mesh."""
 import filecmp
 import json
 import math
 import shutil
 import struct
 import unittest
+import zipfile
 
 from program import ARGUMENTS, FILES, ProgramTest
 
@@ -87,10 +88,56 @@ def write_transforms(cameras, folder):
     (folder / "transforms.json").write_text(json.dumps({"w": 128, "h": 128, "camera_model": "OPENCV", "frames": frames}))
 
 
+def write_opencv(cameras, folder):
+    def matrix(name, rows, columns, values):
+        return f"{name}: !!opencv-matrix\n      rows: {rows}\n      cols: {columns}\n      dt: d\n      data: [ {', '.join(map(repr, values))} ]\n"
+    views = "".join(f"   -\n      image: \"{camera.name}\"\n      "
+                    + matrix("camera_matrix", 3, 3, [camera.focal[0], 0.0, camera.centre[0], 0.0, camera.focal[1], camera.centre[1], 0.0, 0.0, 1.0]) + "      "
+                    + matrix("R", 3, 3, sum(camera.rotation, [])) + "      " + matrix("tvec", 3, 1, camera.translation) for camera in cameras)
+    (folder / "cameras.yml").write_text("%YAML:1.0\n---\nimage_width: 128\nimage_height: 128\nviews:\n" + views)
+
+
+def write_metashape(cameras, folder):
+    sensors = "".join(f"<sensor id='{place}' type='frame'><resolution width='128' height='128'/><calibration type='frame' class='adjusted'>"
+                      f"<f>{camera.focal[1]!r}</f><b1>{camera.focal[0] - camera.focal[1]!r}</b1><cx>{camera.centre[0] + 0.5 - 64!r}</cx>"
+                      f"<cy>{camera.centre[1] + 0.5 - 64!r}</cy></calibration></sensor>" for place, camera in enumerate(cameras))
+    poses = ""
+    for place, camera in enumerate(cameras):
+        back = [[column if axis in (0, 3) else -column for axis, column in enumerate(row)] for row in camera.to_world()]
+        poses += (f"<camera id='{place}' sensor_id='{place}' label='{camera.name[:-len('.png')]}'><transform>"
+                  + words(sum(back[:3], []) + [0.0, 0.0, 0.0, 1.0]) + "</transform></camera>")
+    (folder / "export.xml").write_text("<?xml version='1.0' encoding='UTF-8'?>\n<document version='1.5.0'><chunk label='Chunk 1' enabled='true'><sensors>"
+                                       + sensors + "</sensors><cameras>" + poses + "</cameras></chunk></document>")
+
+
+def write_pmvs(lines, folder):
+    (folder / "txt").mkdir()
+    for place, line in enumerate(lines):
+        values = line.split()[1:]
+        (folder / "txt" / f"{place:08d}.txt").write_text("CONTOUR\n" + "".join(" ".join(values[4 * row:4 * row + 4]) + "\n" for row in range(3)))
+    (folder / "images").rename(folder / "visualize")
+    for kind in ("visualize", "masks"):
+        for place, file in enumerate(sorted((folder / kind).iterdir())):
+            file.rename(folder / kind / f"{place:08d}.png")
+
+
+def write_neus(lines, folder):
+    with zipfile.ZipFile(folder / "cameras_sphere.npz", "w", zipfile.ZIP_DEFLATED) as archive:
+        for place, line in enumerate(lines):
+            for name, values in (("world", [float(value) for value in line.split()[1:]] + [0.0, 0.0, 0.0, 1.0]), ("scale", [2.0] * 16)):
+                header = "{'descr': '<f8', 'fortran_order': False, 'shape': (4, 4), }"
+                header += " " * (-(10 + len(header) + 1) % 64) + "\n"
+                archive.writestr(f"{name}_mat_{place}.npy",
+                                 b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() + struct.pack("<16d", *values))
+    (folder / "images").rename(folder / "image")
+    (folder / "masks").rename(folder / "mask")
+
+
 class OtherProgramsTest(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.cameras = [Camera(line) for line in (self.capture / "projections.txt").read_text().splitlines()]
+        self.lines = (self.capture / "projections.txt").read_text().splitlines()
+        self.cameras = [Camera(line) for line in self.lines]
         self.copy = self.copy_of_capture()
         (self.copy / "projections.txt").unlink()
 
@@ -118,6 +165,24 @@ class OtherProgramsTest(ProgramTest):
         mesh = self.mesh("transforms.obj")
         self.assert_close(mesh)
         self.assertTrue(filecmp.cmp(mesh, self.mesh("json.obj", capture=self.copy / "transforms.json"), False))
+
+    def test_opencv(self):
+        write_opencv(self.cameras, self.copy)
+        self.assert_close(self.mesh("opencv.obj"))
+
+    def test_metashape(self):
+        write_metashape(self.cameras, self.copy)
+        self.assert_close(self.mesh("metashape.obj"))
+
+    def test_pmvs(self):
+        write_pmvs(self.lines, self.copy)
+        self.assert_close(self.mesh("pmvs.obj"))
+        self.assert_close(self.mesh("txt.obj", capture=self.copy / "txt"))
+
+    def test_neus(self):
+        write_neus(self.lines, self.copy)
+        self.assert_close(self.mesh("neus.obj"))
+        self.assert_close(self.mesh("npz.obj", capture=self.copy / "cameras_sphere.npz"))
 
     def test_masks_in_the_images_place(self):
         write_transforms(self.cameras, self.copy)

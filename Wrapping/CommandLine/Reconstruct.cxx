@@ -52,9 +52,10 @@ Reconstruct::Reconstruct(CLI::App& program)
   this->App
     ->add_option("CAPTURE", this->Options.capture, "A folder with images/ or masks/ and projections.txt (image name and "
                                                    "the 12 numbers of the 3 x 4 matrix, a line a view), a Middlebury "
-                                                   "*_par.txt, a transforms.json (NeRF, Blender, nerfstudio) or a COLMAP "
+                                                   "*_par.txt, a transforms.json (NeRF, Blender, nerfstudio), a COLMAP "
                                                    "model (cameras and images, .bin or .txt, there or in sparse or "
-                                                   "sparse/0); or one of these files. Lens distortion is taken out")
+                                                   "sparse/0), or cameras of OpenCV (cameras.yml), Metashape (*.xml), "
+                                                   "PMVS (txt) or NeuS (*.npz); or one of these files. Lens distortion is taken out")
     ->required();
   this->addOutputs();
   this->Options.silhouettes.addTo(*this->App);
