@@ -37,10 +37,10 @@ struct StorageNode
 };
 
 /**
- * Read a file. YAML as OpenCV writes it and as people do by hand: block and flow collections, quoted and plain text; tags are passed
- * over; anchors, block text (`|`, `>`) and base64 data are not read. XML: elements called `_` are a sequence, other elements a map, and
- * several words a sequence. JSON: with numbers as YAML has them, too (`1.`). Throws InvalidInput, naming file and line: none of
- * the three; what cannot be parsed; more than 64 levels, or 2 million values; what FileBytes.h throws. Cost: linear in the file.
+ * Read a file. YAML as OpenCV writes it and as people do by hand, the first document; tags are passed over, keys are texts; aliases and
+ * base64 data are not read. XML: elements called `_` are a sequence, other elements a map, and several words a sequence. JSON: with
+ * numbers as YAML has them, too (`1.`). Throws InvalidInput, naming file and line: none of the three; what cannot be parsed; more than
+ * 64 levels, 2 million values, or 16 MiB of YAML or JSON; what FileBytes.h throws. Cost: linear in the file; at most 1.5 GB, of YAML.
  */
 StorageNode readStorageTree(const std::filesystem::path& file);
 

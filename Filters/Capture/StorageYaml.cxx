@@ -4,9 +4,15 @@
 #include "Error.h"
 #include "TextParsing.h"
 
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <optional>
+#include <sstream>
 
 namespace silhouette
 {
@@ -17,398 +23,251 @@ using Kind = StorageNode::Kind;
 
 constexpr int DeepestLevel = 64;
 constexpr std::size_t MostValues = 2'000'000;
+constexpr std::size_t MostBytes = std::size_t(16) << 20; // of text: more than 1 GB in yaml-cpp, where it all lies within brackets
 
-void appendUtf8(std::string& text, unsigned code)
-{
-  if (code < 0x80)
-  {
-    text += char(code);
-    return;
-  }
-  const int following = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
-  text += char((0xFF00 >> (following + 1) & 0xFF) | code >> (6 * following));
-  for (int i = following - 1; i >= 0; --i)
-  {
-    text += char(0x80 | (code >> (6 * i) & 0x3F));
-  }
-}
-
-/** YAML and JSON. A line is what is left of it; a dash and a key are taken off its front, and its indentation grows. */
-class YamlReader
+/**
+ * A copy that yaml-cpp reads as OpenCV and JSON mean it: a blank after the colon of `{ x:1 }`, no directives (`%YAML:1.0` is none), no
+ * comments, which JSON of OpenCV begins with two slashes, one \U for the two \u of a surrogate pair, nothing but the first document.
+ */
+class YamlMender
 {
 public:
-  YamlReader(std::string_view text, StorageLimits& limits)
+  YamlMender(std::string_view text, const StorageLimits& limits)
     : Bounds(limits)
+    , Text(text)
   {
-    for (int number = 1; !text.empty(); ++number)
+  }
+
+  /** Lines are counted from 1 by yaml-cpp, too: a first line is put before them, which also settles the encoding. */
+  std::string mended()
+  {
+    while (this->At < this->Text.size() && !this->isEnd())
     {
-      const std::size_t end = std::min(text.find('\n'), text.size());
-      std::string_view line = text.substr(0, end);
-      text.remove_prefix(std::min(end + 1, text.size()));
-      line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
-      if (line.substr(0, 3) == "..." || (line.substr(0, 3) == "---" && !this->Lines.empty()))
+      const char c = this->Text[this->At];
+      if (this->isLeftOut())
       {
-        break; // the first document is the one that counts
+        this->At = std::min(this->Text.find('\n', this->At), this->Text.size());
       }
-      const std::size_t indent = line.find_first_not_of(' ');
-      if (indent == std::string_view::npos || line[indent] == '#' || line[0] == '%' || line.substr(0, 3) == "---")
+      else if ((c == '"' || c == '\'') && (this->IsFresh || (c == '\'' && this->before() == c)))
       {
-        continue;
+        this->quoted(c);
       }
-      this->Lines.push_back({ line.substr(indent), indent, number });
-    }
-  }
-
-  StorageNode read()
-  {
-    StorageNode node = this->block(-1, 0);
-    if (this->At < this->Lines.size())
-    {
-      this->fail("is indented as nothing before it");
-    }
-    return node;
-  }
-
-private:
-  struct Line
-  {
-    std::string_view text;
-    std::size_t indent;
-    int number;
-  };
-
-  [[noreturn]] void fail(const std::string& what) const
-  {
-    const Line& line = this->Lines[std::min(this->At, this->Lines.size() - 1)];
-    this->Bounds.fail(line.number, (line.text.empty() ? "the line's end" : inQuotes(line.text)) + " " + what);
-  }
-
-  bool isAt(long indent) const { return this->At < this->Lines.size() && long(this->Lines[this->At].indent) == indent; }
-  bool isItem() const
-  {
-    const std::string_view text = this->Lines[this->At].text;
-    return text[0] == '-' && (text.size() == 1 || text[1] == ' ');
-  }
-
-  /** Takes `count` characters, and the blanks after them, off the line; leaves it when nothing follows. */
-  void take(std::size_t count)
-  {
-    Line& line = this->Lines[this->At];
-    const std::size_t next = std::min(line.text.find_first_not_of(" \t", count), line.text.size());
-    line.indent += next;
-    line.text.remove_prefix(next);
-  }
-
-  /** A comment, or the end of the line. */
-  void leaveLine()
-  {
-    if (!this->Lines[this->At].text.empty() && this->Lines[this->At].text[0] != '#')
-    {
-      this->fail("follows a value");
-    }
-    ++this->At;
-  }
-
-  /** What lies deeper than `parent`, from the line that is left. */
-  StorageNode block(long parent, int level)
-  {
-    if (this->At >= this->Lines.size() || long(this->Lines[this->At].indent) <= parent)
-    {
-      return {};
-    }
-    this->Bounds.count(this->Lines[this->At].number, level);
-    const long indent = long(this->Lines[this->At].indent);
-    if (this->Lines[this->At].text[0] == '\t')
-    {
-      this->fail("is indented with a tab");
-    }
-    if (this->isItem())
-    {
-      return this->sequence(indent, level);
-    }
-    return this->keySize() > 0 ? this->map(indent, level) : this->inlineValue(level);
-  }
-
-  StorageNode sequence(long indent, int level)
-  {
-    StorageNode node;
-    node.kind = Kind::Sequence;
-    while (this->isAt(indent) && this->isItem())
-    {
-      this->take(1);
-      this->skipTags();
-      node.members.emplace_back("", this->rest(indent, level + 1));
-    }
-    return node;
-  }
-
-  StorageNode map(long indent, int level)
-  {
-    StorageNode node;
-    node.kind = Kind::Map;
-    while (this->isAt(indent) && !this->isItem())
-    {
-      const std::size_t size = this->keySize();
-      if (size == 0)
+      else if (!this->Open.empty() || (this->IsFresh && (c == '[' || c == '{')))
       {
-        this->fail("has no key");
-      }
-      const std::string_view key = this->Lines[this->At].text.substr(0, size);
-      this->take(size + 1);
-      this->skipTags();
-      // A sequence's dashes may stand below its key's first letter.
-      const std::size_t next = this->At + 1;
-      const std::string_view left = this->Lines[this->At].text;
-      const bool isBelow = (left.empty() || left[0] == '#') && next < this->Lines.size() && long(this->Lines[next].indent) == indent &&
-        this->Lines[next].text[0] == '-';
-      node.members.emplace_back(withoutQuotes(key), this->rest(isBelow ? indent - 1 : indent, level + 1, true));
-    }
-    return node;
-  }
-
-  /** What follows a dash or a key: on the line, or on the next ones. */
-  StorageNode rest(long indent, int level, bool isOfKey = false)
-  {
-    const std::string_view text = this->Lines[this->At].text;
-    if (text.empty() || text[0] == '#')
-    {
-      ++this->At;
-      return this->block(indent, level);
-    }
-    if (!isOfKey)
-    {
-      return this->block(indent, level); // "- a: 1" begins a map as deep as a
-    }
-    this->Bounds.count(this->Lines[this->At].number, level);
-    return this->inlineValue(level);
-  }
-
-  /** Characters of the key that the line begins with, the colon not counted; 0 where there is none. */
-  std::size_t keySize() const
-  {
-    const std::string_view text = this->Lines[this->At].text;
-    std::size_t at = 0;
-    if (text[0] == '"' || text[0] == '\'')
-    {
-      at = text.find(text[0], 1);
-      at = at == std::string_view::npos ? 0 : at + 1;
-      return at > 0 && at < text.size() && text[at] == ':' ? at : 0;
-    }
-    if (text[0] == '[' || text[0] == '{' || text[0] == '\t')
-    {
-      return 0;
-    }
-    do
-    {
-      at = text.find(':', at + 1);
-    } while (at < text.size() && at + 1 < text.size() && text[at + 1] != ' ');
-    return at < text.size() ? at : 0;
-  }
-
-  static std::string withoutQuotes(std::string_view key)
-  {
-    const bool isQuoted = key[0] == '"' || key[0] == '\'';
-    return std::string(isQuoted ? key.substr(1, key.size() - 2) : key.substr(0, key.find_last_not_of(' ') + 1));
-  }
-
-  /** !!opencv-matrix and its like: the keys say it, too. */
-  void skipTags()
-  {
-    while (!this->Lines[this->At].text.empty() && this->Lines[this->At].text[0] == '!')
-    {
-      if (this->Lines[this->At].text.substr(0, 8) == "!!binary")
-      {
-        this->fail("is base64 data, which is not read; write it as numbers");
-      }
-      this->take(std::min(this->Lines[this->At].text.find(' '), this->Lines[this->At].text.size()));
-    }
-  }
-
-  /** A value that begins on the line, to the end of its last line. */
-  StorageNode inlineValue(int level)
-  {
-    const std::string_view text = this->Lines[this->At].text;
-    if (text[0] == '[' || text[0] == '{' || text[0] == '"' || text[0] == '\'')
-    {
-      StorageNode node = this->flow(level);
-      this->leaveLine();
-      return node;
-    }
-    if (text[0] == '|' || text[0] == '>' || text[0] == '&' || text[0] == '*')
-    {
-      this->fail("is block text or an anchor, which are not read");
-    }
-    std::string_view word = text.substr(0, text.find(" #"));
-    word = word.substr(0, word.find_last_not_of(' ') + 1);
-    ++this->At;
-    return wordNode(word);
-  }
-
-  /** The next character within brackets, on whichever line. */
-  char next()
-  {
-    const auto isLeft = [this] { // OpenCV begins comments in JSON with two slashes
-      const std::string_view text = this->Lines[this->At].text;
-      return !text.empty() && text[0] != '#' && text.substr(0, 2) != "//";
-    };
-    while (!isLeft())
-    {
-      if (++this->At == this->Lines.size())
-      {
-        this->fail("ends within brackets");
-      }
-    }
-    this->take(0);
-    return this->Lines[this->At].text[0];
-  }
-
-  StorageNode flow(int level)
-  {
-    const char first = this->next();
-    this->Bounds.count(this->Lines[this->At].number, level);
-    if (first == '"' || first == '\'')
-    {
-      return textNode(this->quoted());
-    }
-    if (first == '[' || first == '{')
-    {
-      return this->flowCollection(first == '{', level);
-    }
-    const std::string_view text = this->Lines[this->At].text;
-    std::string_view word = text.substr(0, text.find_first_of(",]}"));
-    if (word.empty())
-    {
-      this->fail("is no value");
-    }
-    this->take(word.size());
-    word = word.substr(0, word.find_last_not_of(" \t") + 1);
-    return wordNode(word);
-  }
-
-  StorageNode flowCollection(bool isMap, int level)
-  {
-    const char close = isMap ? '}' : ']';
-    StorageNode node;
-    node.kind = isMap ? Kind::Map : Kind::Sequence;
-    this->take(1);
-    while (this->next() != close)
-    {
-      std::string key = isMap ? this->flowKey() : std::string();
-      this->next();
-      this->skipTags();
-      node.members.emplace_back(std::move(key), this->flow(level + 1));
-      if (this->next() == ',')
-      {
-        this->take(1);
-      }
-      else if (this->next() != close)
-      {
-        this->fail(std::string("is neither a comma nor a ") + close);
-      }
-    }
-    this->take(1);
-    return node;
-  }
-
-  /** A key within brackets, and its colon. */
-  std::string flowKey()
-  {
-    const char first = this->next();
-    const std::string_view text = this->Lines[this->At].text;
-    std::string key;
-    if (first == '"' || first == '\'')
-    {
-      key = this->quoted();
-    }
-    else
-    {
-      const std::string_view word = text.substr(0, text.find_first_of(":,]}[{"));
-      key = std::string(word.substr(0, word.find_last_not_of(' ') + 1));
-      this->take(word.size());
-    }
-    if (this->next() != ':' || key.empty())
-    {
-      this->fail("is not a key and a colon");
-    }
-    this->take(1);
-    return key;
-  }
-
-  /** Text in quotes, on one line. */
-  std::string quoted()
-  {
-    const std::string_view line = this->Lines[this->At].text;
-    const char quote = line[0];
-    std::string text;
-    for (std::size_t at = 1; at < line.size(); ++at)
-    {
-      const char c = line[at];
-      if (c == quote && quote == '\'' && line.substr(at + 1, 1) == "'")
-      {
-        text += line[++at];
-      }
-      else if (c == quote)
-      {
-        this->take(at + 1);
-        return text;
-      }
-      else if (c == '\\' && quote == '"')
-      {
-        this->unescape(line, ++at, text);
+        this->flow(c);
       }
       else
       {
-        text += c;
+        this->block(c);
       }
     }
-    this->fail("has a quote that is not closed");
-  }
-
-  /** Four hexadecimal digits; nothing where these are none. */
-  static std::optional<unsigned> hexadecimal(std::string_view digits)
-  {
-    unsigned code = 0;
-    for (const char c : digits)
+    if (!this->Open.empty()) // yaml-cpp would take the first bracket for a key
     {
-      const std::size_t digit = std::string_view("0123456789abcdef").find(c >= 'A' && c <= 'F' ? char(c - 'A' + 'a') : c);
-      if (digit == std::string_view::npos)
-      {
-        return std::nullopt;
-      }
-      code = code * 16 + unsigned(digit);
+      this->Bounds.fail(this->Line, "the file ends within brackets");
     }
-    return digits.size() == 4 ? std::optional(code) : std::nullopt;
+    return std::move(this->Mended);
   }
 
-  /** The character after a backslash, `at`, which is left on the escape's last one. */
-  void unescape(std::string_view line, std::size_t& at, std::string& text) const
+private:
+  static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+  char before() const { return this->At == 0 ? '\n' : this->Text[this->At - 1]; }
+  char after() const { return this->At + 1 < this->Text.size() ? this->Text[this->At + 1] : '\n'; }
+  bool isAt(std::string_view what) const { return this->Text.substr(this->At, what.size()) == what; }
+  bool isBlockLine() const { return this->Open.empty() && this->before() == '\n'; }
+  bool isEnd() const { return this->isBlockLine() && (this->isAt("...") || (this->isAt("---") && this->HasContent)); }
+
+  bool isLeftOut() const
   {
-    static constexpr std::string_view letters = "nrtbf", meanings = "\n\r\t\b\f";
-    const char c = at < line.size() ? line[at] : '\0';
-    if (c != 'u')
+    const bool isComment = this->isAt("#") || (this->isAt("//") && !this->Open.empty());
+    return (isComment && (this->IsFresh || isBlank(this->before()))) || (this->isAt("%") && this->isBlockLine());
+  }
+
+  void put()
+  {
+    this->Line += this->Text[this->At] == '\n';
+    this->Mended += this->Text[this->At++];
+  }
+
+  void quoted(char quote)
+  {
+    const int line = this->Line;
+    this->IsFresh = false;
+    this->HasContent = true;
+    this->put();
+    while (this->At < this->Text.size() && this->Text[this->At] != quote)
     {
-      const std::size_t letter = letters.find(c);
-      text += letter == std::string_view::npos ? c : meanings[letter];
+      quote == '"' && this->isAt("\\") ? this->escape() : this->put();
+    }
+    if (this->At == this->Text.size()) // yaml-cpp takes a last line for a closed one
+    {
+      this->Bounds.fail(line, "a quote is not closed");
+    }
+    this->put();
+  }
+
+  /** The number of `\uXXXX` at a place. */
+  std::optional<unsigned> unitAt(std::size_t at) const
+  {
+    const std::string_view escape = this->Text.substr(std::min(at, this->Text.size()), 6);
+    unsigned unit = 0;
+    const bool isUnit = escape.size() == 6 && escape.substr(0, 2) == "\\u" &&
+      std::from_chars(escape.data() + 2, escape.data() + 6, unit, 16).ptr == escape.data() + 6;
+    return isUnit ? std::optional(unit) : std::nullopt;
+  }
+
+  void escape()
+  {
+    const std::optional<unsigned> high = this->unitAt(this->At), low = this->unitAt(this->At + 6);
+    if (!high || !low || *high >> 10 != 0x36 || *low >> 10 != 0x37)
+    {
+      this->put();
+      this->At < this->Text.size() ? this->put() : void();
       return;
     }
-    std::optional<unsigned> code = hexadecimal(line.substr(at + 1, 4));
-    at += 4;
-    if (code && *code >= 0xD800 && *code < 0xDC00 && line.substr(std::min(at + 1, line.size()), 2) == "\\u")
+    std::ostringstream code;
+    code << std::hex << 0x10000 + ((*high & 0x3FF) << 10 | (*low & 0x3FF));
+    this->Mended += "\\U" + std::string(8 - code.str().size(), '0') + code.str();
+    this->At += 12;
+  }
+
+  /** Within brackets, or at the first of them. Values are counted here, too: yaml-cpp reads to the last bracket before it tells of any. */
+  void flow(char c)
+  {
+    this->HasContent = true;
+    if (c == '[' || c == '{' || c == ',')
     {
-      const std::optional<unsigned> low = hexadecimal(line.substr(std::min(at + 3, line.size()), 4));
-      code = low && *low >= 0xDC00 && *low < 0xE000 ? std::optional(0x10000 + ((*code - 0xD800) << 10) + (*low - 0xDC00)) : std::nullopt;
-      at += 6;
+      this->Bounds.count(this->Line, int(this->Open.size()));
+      this->Open += c == ',' ? "" : std::string(1, c);
     }
-    if (!code || *code == 0 || (*code >= 0xD800 && *code < 0xE000))
+    else if (c == ']' || c == '}')
     {
-      this->fail("has a \\u that is no character");
+      this->Open.pop_back();
     }
-    appendUtf8(text, *code);
+    const bool endsKey = c == ':' && this->IsKey;
+    this->IsFresh = c == '[' || c == '{' || c == ',' || endsKey || (this->IsFresh && isBlank(c)) || (c == ':' && isBlank(this->after()));
+    this->IsKey = !this->Open.empty() && this->Open.back() == '{' && (c == '{' || c == ',' || (this->IsKey && !endsKey));
+    this->put();
+    this->Mended += endsKey ? " " : "";
+  }
+
+  /** Of block collections only what tells where a value may begin: after a dash, a colon, a tag. */
+  void block(char c)
+  {
+    if (this->isBlockLine() && this->isAt("---"))
+    {
+      this->At += 3;
+      return;
+    }
+    this->HasContent = this->HasContent || !isBlank(c);
+    const bool isTag = this->IsFresh && c == '!';
+    while (isTag && !isBlank(this->after()))
+    {
+      this->put();
+    }
+    const bool isBefore = isBlank(this->after()) && (c == ':' || (this->IsFresh && (c == '-' || c == '?')));
+    this->IsFresh = c == '\n' || isTag || isBefore || (this->IsFresh && isBlank(c));
+    this->put();
+  }
+
+  StorageLimits Bounds; ///< a copy: the values are counted once more when they are kept
+  std::string_view Text;
+  std::string Mended = "#\n";
+  std::string Open; ///< brackets
+  std::size_t At = 0;
+  int Line = 1;
+  bool IsFresh = true;     ///< a value or a key may begin here
+  bool IsKey = false;      ///< within braces, before the colon
+  bool HasContent = false; ///< of the first document
+};
+
+/** The tree from yaml-cpp's events. */
+class TreeBuilder final : public YAML::EventHandler
+{
+public:
+  explicit TreeBuilder(StorageLimits& limits)
+    : Bounds(limits)
+  {
+  }
+
+  StorageNode Root;
+
+  void OnDocumentStart(const YAML::Mark& mark) override
+  {
+    if (this->HasDocument)
+    {
+      this->Bounds.fail(lineOf(mark), "something follows the value");
+    }
+    this->HasDocument = true;
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { this->place(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { this->Bounds.fail(lineOf(mark), "an alias (*) is not read"); }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override { this->open(mark, Kind::Sequence); }
+  void OnSequenceEnd() override { this->Open.pop_back(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override { this->open(mark, Kind::Map); }
+  void OnMapEnd() override { this->Open.pop_back(); }
+
+  /** yaml-cpp's tags: "?" for a plain word, "!" for quoted and block text. Of others the keys say what they say. */
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, const std::string& value) override
+  {
+    static const std::string yaml = "tag:yaml.org,2002:";
+    if (tag == yaml + "binary")
+    {
+      this->Bounds.fail(lineOf(mark), "base64 data (!!binary) is not read; write it as numbers");
+    }
+    if (value.find('\0') != std::string::npos)
+    {
+      this->Bounds.fail(lineOf(mark), "text holds a zero byte");
+    }
+    if (!this->Open.empty() && this->Open.back().node->is(Kind::Map) && !this->Open.back().hasKey)
+    {
+      this->Open.back().node->members.emplace_back(value, StorageNode());
+      this->Open.back().hasKey = true;
+      return;
+    }
+    this->place(mark) = tag == "!" || tag == yaml + "str" ? textNode(value) : wordNode(value);
+  }
+
+private:
+  struct Level
+  {
+    StorageNode* node;
+    bool hasKey; ///< of a map: the last member lacks its value
+  };
+
+  static int lineOf(const YAML::Mark& mark) { return std::max(mark.line, 1); }
+
+  /** Where the next value goes. */
+  StorageNode& place(const YAML::Mark& mark)
+  {
+    this->Bounds.count(lineOf(mark), int(this->Open.size()));
+    if (this->Open.empty())
+    {
+      return this->Root;
+    }
+    Level& level = this->Open.back();
+    if (level.node->is(Kind::Sequence))
+    {
+      return level.node->members.emplace_back().second;
+    }
+    if (!level.hasKey)
+    {
+      this->Bounds.fail(lineOf(mark), "a key is not a text");
+    }
+    level.hasKey = false;
+    return level.node->members.back().second;
+  }
+
+  void open(const YAML::Mark& mark, Kind kind)
+  {
+    StorageNode& node = this->place(mark);
+    node.kind = kind;
+    this->Open.push_back({ &node, false });
   }
 
   StorageLimits& Bounds;
-  std::vector<Line> Lines;
-  std::size_t At = 0;
+  std::vector<Level> Open;
+  bool HasDocument = false;
 };
 
 } // namespace
@@ -458,7 +317,30 @@ StorageNode wordNode(std::string_view word)
 
 StorageNode parseStorageYaml(std::string_view text, StorageLimits& limits)
 {
-  return YamlReader(text, limits).read();
+  const auto isControl = [](char c) { return c >= 0 && c < ' ' && c != '\t' && c != '\r' && c != '\n'; };
+  const auto control = std::find_if(text.begin(), text.end(), isControl); // one of them ends the file for yaml-cpp
+  if (control != text.end())
+  {
+    limits.fail(1 + int(std::count(text.begin(), control, '\n')), "holds a control character");
+  }
+  if (text.size() > MostBytes)
+  {
+    limits.fail(1, "more than 16 MiB are too much for a camera file in YAML or JSON");
+  }
+  TreeBuilder builder(limits);
+  std::istringstream stream(YamlMender(text, limits).mended());
+  try
+  {
+    YAML::Parser parser(stream);
+    while (parser.HandleNextDocument(builder))
+    {
+    }
+  }
+  catch (const YAML::Exception& error)
+  {
+    limits.fail(std::max(error.mark.line, 1), "is no YAML (" + error.msg + ")");
+  }
+  return std::move(builder.Root);
 }
 
 } // namespace silhouette

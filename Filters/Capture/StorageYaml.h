@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The YAML and JSON of StorageTree.h, and what its parsers share.
+ * The YAML and JSON of StorageTree.h by yaml-cpp, and what its parsers share.
  */
 #pragma once
 

@@ -66,7 +66,8 @@ struct Source
 std::string spoilt(std::string text, Source& source)
 {
   static const char* const pieces[] = { "[", "]", "{", "}", "<", "</", ">", "\n", "- ", ":", ",", "\"", "!!binary |", "$base64$", "1e999", "-", "nan", ".Inf",
-                                        "99999999999999999999", "-1", "0x", "&amp;", "<![CDATA[", "<!--", "\xff\xfe", "\\u0000", "'", "#", "|", "%", "cols: 9" };
+                                        "99999999999999999999", "-1", "0x", "&amp;", "<![CDATA[", "<!--", "\xff\xfe", "\\u0000", "'", "#", "|", "%", "cols: 9",
+                                        "&a ", "*a", "? ", "!!str ", "\\ud83d\\ude00" };
   for (unsigned left = 1 + source.next() % 6; left > 0; --left)
   {
     const std::size_t at = source.below(text.size() + 1);

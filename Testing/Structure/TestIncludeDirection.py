@@ -89,6 +89,7 @@ class TestCheck(unittest.TestCase):
                 ("Filters/Capture/Regions.h", "<vtkImageData.h>", "VTK"),
                 ("Filters/Modeling/vtkSilhouetteThing.cxx", "<opencv2/core.hpp>", "OpenCV"),
                 ("Filters/Modeling/vtkSilhouetteThing.cxx", "<pugixml.hpp>", "the camera files' libraries"),
+                ("Wrapping/CommandLine/main.cxx", "<yaml-cpp/yaml.h>", "the camera files' libraries"),
                 ("Filters/Core/Mesh.h", "<zlib.h>", "the camera files' libraries"),
                 ("Filters/OffScreen/Window.h", "<Eigen/Core>", "Eigen"),
                 ("Wrapping/CommandLine/main.cxx", "<opencv2/core.hpp>", "OpenCV")):

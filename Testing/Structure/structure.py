@@ -32,7 +32,7 @@ KINDS = (
     ("OSMesa", re.compile(r"[<\"]GL/osmesa\.h")),
     ("the program's libraries", re.compile(r"[<\"]CLI/")),
     ("nlohmann-json", re.compile(r"[<\"]nlohmann/")),
-    ("the camera files' libraries", re.compile(r"<(pugixml\.hpp|zlib\.h)>")),
+    ("the camera files' libraries", re.compile(r"<(pugixml\.hpp|yaml-cpp/\w+\.h|zlib\.h)>")),
     ("the system", re.compile(r"<(sys/)?[a-z]+\.h>")),
 )
 
