@@ -90,7 +90,7 @@ def write_transforms(cameras, folder):
 
 def write_opencv(cameras, folder):
     def matrix(name, rows, columns, values):
-        return f"{name}: !!opencv-matrix\n      rows: {rows}\n      cols: {columns}\n      dt: d\n      data: [ {', '.join(map(repr, values))} ]\n"
+        return f"{name}: !!opencv-matrix\n         rows: {rows}\n         cols: {columns}\n         dt: d\n         data: [ {', '.join(map(repr, values))} ]\n"
     views = "".join(f"   -\n      image: \"{camera.name}\"\n      "
                     + matrix("camera_matrix", 3, 3, [camera.focal[0], 0.0, camera.centre[0], 0.0, camera.focal[1], camera.centre[1], 0.0, 0.0, 1.0]) + "      "
                     + matrix("R", 3, 3, sum(camera.rotation, [])) + "      " + matrix("tvec", 3, 1, camera.translation) for camera in cameras)

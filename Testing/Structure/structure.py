@@ -39,8 +39,7 @@ KINDS = (
 # Kinds that each room may include; what is of no kind may be included nowhere.
 ALLOWED = {
     "Filters/Core": {"the C++ library", "Eigen", "Qhull"},
-    "Filters/Capture": {"the C++ library", "files", "Eigen", "OpenCV", "nlohmann-json"},
-    "Filters/Capture": {"the C++ library", "files", "Eigen", "OpenCV", "the camera files' libraries"},
+    "Filters/Capture": {"the C++ library", "files", "Eigen", "OpenCV", "nlohmann-json", "the camera files' libraries"},
     "Filters/Modeling": {"the C++ library", "files", "Eigen", "VTK"},
     "Filters/OffScreen": {"the C++ library", "VTK", "OSMesa", "the system"},
     "Wrapping": {"the C++ library", "files", "VTK", "the program's libraries", "nlohmann-json", "the system"},
