@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CaptureNoise.h"
 
-#include "Error.h"
+#include "ParameterRange.h"
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace silhouette
 {
@@ -172,11 +171,7 @@ double gaussianAt(std::uint64_t key, std::uint64_t place)
 
 BinaryImage addContourNoise(const BinaryImage& mask, double sigma, std::uint64_t key)
 {
-  if (!(sigma >= 0.0 && sigma <= GreatestContourNoise))
-  {
-    throw InvalidInput("contour noise " + std::to_string(sigma) + " is outside 0 to " +
-                       std::to_string(GreatestContourNoise));
-  }
+  requireRange("contour noise", sigma, 0.0, GreatestContourNoise);
   if (sigma == 0.0 || mask.pixels.empty())
   {
     return mask;
@@ -237,10 +232,7 @@ BinaryImage cutBlobs(const BinaryImage& mask, std::uint64_t key)
 
 BinaryImage flipPixels(const BinaryImage& mask, double share, std::uint64_t key)
 {
-  if (!(share >= 0.0 && share <= 1.0))
-  {
-    throw InvalidInput("share of flipped pixels " + std::to_string(share) + " is outside 0 to 1");
-  }
+  requireRange("share of flipped pixels", share, 0.0, 1.0);
   BinaryImage result = mask;
   for (std::size_t i = 0; share > 0.0 && i < result.pixels.size(); ++i)
   {

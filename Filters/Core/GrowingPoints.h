@@ -24,20 +24,12 @@ public:
 
   void add(std::uint64_t point) { this->add(BlockWord{ point >> 6, std::uint64_t(1) << (point & 63) }); }
 
-  /** Many points, ascending. */
-  void add(const std::vector<std::uint64_t>& points)
+  void add(const std::vector<BlockWord>& words)
   {
-    BlockWord word{ 0, 0 };
-    for (const std::uint64_t point : points)
+    for (const BlockWord& word : words)
     {
-      if (point >> 6 != word.block)
-      {
-        this->add(word);
-        word = { point >> 6, 0 };
-      }
-      word.bits |= std::uint64_t(1) << (point & 63);
+      this->add(word);
     }
-    this->add(word);
   }
 
 private:

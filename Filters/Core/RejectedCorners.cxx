@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -145,7 +144,7 @@ public:
     front.corners = std::move(first);
     if (!front.corners.empty())
     {
-      this->look(shell.corners, front.corners);
+      this->look(PointBlocks(shell.corners, this->Exec), front.corners);
       this->takeCubes(front);
     }
     while (!front.corners.empty() || !front.cubes.empty())
@@ -173,42 +172,53 @@ private:
   Front beside(const Front& front)
   {
     Met met = this->besideCubes(front.cubes);
-    std::vector<std::uint64_t> codes(front.corners.size());
-    std::transform(front.corners.begin(), front.corners.end(), codes.begin(), [](const Rejected& one) { return one.corner; });
-    PointBlocks asked = PointBlocks(codes, this->Exec).beside(this->Views.lattice(), this->Exec);
+    PointBlocks asked = PointBlocks(this->codesOf(front.corners), this->Exec).beside(this->Views.lattice(), this->Exec);
     if (!met.corners.empty())
     {
-      codes = asked.points(this->Exec);
+      std::vector<std::uint64_t> codes = asked.points(this->Exec);
       codes.insert(codes.end(), met.corners.begin(), met.corners.end());
       radixSort(codes, 3 * (this->Views.lattice().depth + 1), [](std::uint64_t code) { return code; }, this->Exec);
       asked = PointBlocks(codes, this->Exec);
     }
     asked.remove(this->Alone, this->Exec);
     asked.remove(this->Others, this->Exec);
-    codes = asked.points(this->Exec);
+    std::vector<std::uint64_t> codes = asked.points(this->Exec);
     if (this->Largest > 0)
     {
       codes = selected(
         codes.size(), [&](std::size_t n) { return !this->isInCube(codes[n], LeastCube); }, [&](std::size_t n) { return codes[n]; }, this->Exec);
+      asked = PointBlocks(codes, this->Exec);
     }
     Front next;
     next.corners = rejectedOf(this->Views, codes, this->Exec);
-    this->look(codes, next.corners);
+    this->look(std::move(asked), next.corners);
     this->takeCubes(next);
     next.cubes.insert(next.cubes.end(), met.cubes.begin(), met.cubes.end());
     sortUnique(next.cubes);
     return next;
   }
 
-  /** Corners that have been asked about, ascending, and those of them that one view alone rejects. */
-  void look(const std::vector<std::uint64_t>& corners, const std::vector<Rejected>& rejected)
+  /** Corners that have been asked about, and those of them that one view alone rejects, ascending. */
+  void look(PointBlocks corners, const std::vector<Rejected>& rejected)
   {
-    std::vector<std::uint64_t> alone(rejected.size()), others;
-    std::transform(rejected.begin(), rejected.end(), alone.begin(), [](const Rejected& one) { return one.corner; });
-    others.reserve(corners.size() - alone.size());
-    std::set_difference(corners.begin(), corners.end(), alone.begin(), alone.end(), std::back_inserter(others));
-    this->Alone.add(alone);
-    this->Others.add(others);
+    const PointBlocks alone(this->codesOf(rejected), this->Exec);
+    corners.remove(alone, this->Exec);
+    this->Alone.add(alone.words());
+    this->Others.add(corners.words());
+  }
+
+  std::vector<std::uint64_t> codesOf(const std::vector<Rejected>& rejected) const
+  {
+    std::vector<std::uint64_t> codes(rejected.size());
+    this->Exec.forRanges(codes.size(), 4096,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t n = first; n < last; ++n)
+        {
+          codes[n] = rejected[n].corner;
+        }
+      });
+    return codes;
   }
 
   /** Take out of a front's corners those that lie in cubes, for these. */

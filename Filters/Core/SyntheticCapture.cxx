@@ -3,6 +3,7 @@
 
 #include "CaptureNoise.h"
 #include "MeshCheck.h"
+#include "ParameterRange.h"
 #include "ShadedRendering.h"
 #include "SilhouetteRendering.h"
 
@@ -130,36 +131,18 @@ Projection reportedProjection(Camera camera, const SyntheticCaptureOptions& opti
   return camera.projection();
 }
 
-void requireRange(const char* option, double value, double least, double greatest)
-{
-  if (!(value >= least && value <= greatest))
-  {
-    throw InvalidInput(std::string(option) + " " + std::to_string(value) + " is outside " +
-                       std::to_string(least) + " to " + std::to_string(greatest));
-  }
-}
-
-void requireCount(const char* option, int value, int least, int greatest)
-{
-  if (value < least || value > greatest)
-  {
-    throw InvalidInput(std::string(option) + " " + std::to_string(value) + " is outside " +
-                       std::to_string(least) + " to " + std::to_string(greatest));
-  }
-}
-
 void validateImages(int views, int width, int height)
 {
-  requireCount("views", views, 1, 10000);
-  requireCount("width", width, 1, 16384);
-  requireCount("height", height, 1, 16384);
+  requireRange("views", views, 1, 10000);
+  requireRange("width", width, 1, 16384);
+  requireRange("height", height, 1, 16384);
 }
 
 void validate(const SyntheticCaptureOptions& options)
 {
   validateImages(options.views, options.width, options.height);
   requireRange("noise-contour", options.noiseContour, 0.0, GreatestContourNoise);
-  requireCount("noise-blobs", options.noiseBlobs, 0, options.views);
+  requireRange("noise-blobs", options.noiseBlobs, 0, options.views);
   requireRange("noise-pixels", options.noisePixels, 0.0, 1.0);
   requireRange("noise-camera", options.noiseCamera, 0.0, 1e6);
   requireRange("noise-rotation", options.noiseRotation, 0.0, 90.0);

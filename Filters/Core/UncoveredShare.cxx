@@ -3,6 +3,7 @@
 
 #include "ItemWork.h"
 #include "OctantCover.h"
+#include "ParameterRange.h"
 #include "UncoveredRegions.h"
 #include "Vectorised.h"
 
@@ -171,15 +172,10 @@ private:
 
 void check(const Octree& octree, const PreparedViews& views, const UncoveredShareOptions& options)
 {
-  for (const auto& [name, value] : { std::pair<const char*, double>("reach", options.reach),
-         std::pair<const char*, double>("speck area", options.speckArea), std::pair<const char*, double>("bridged distance", options.bridged) })
-  {
-    if (!(value >= 0.0) || std::isinf(value))
-    {
-      throw InvalidInput(
-        std::string(name) + " " + std::to_string(value) + " is not a number of octants, 0 or more");
-    }
-  }
+  constexpr double most = 1e9; // octants
+  requireRange("reach", options.reach, 0.0, most);
+  requireRange("speck area", options.speckArea, 0.0, most);
+  requireRange("bridged distance", options.bridged, 0.0, most);
   if (octree.viewCount != views.size())
   {
     throw InvalidInput("the octree was carved from " + std::to_string(octree.viewCount) +

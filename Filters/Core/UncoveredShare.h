@@ -19,17 +19,17 @@ namespace silhouette
 struct UncoveredShareOptions
 {
   /**
-   * Octants, 0 or more: pixels no further than this from a survivor's projection count as covered; larger
+   * Octants, 0 to 1e9: pixels no further than this from a survivor's projection count as covered; larger
    * finds less.
    */
   double reach = 1.0;
   /**
-   * Squared octants, 0 or more: regions of uncovered pixels of a smaller area, such as salt, are left out; at
+   * Squared octants, 0 to 1e9: regions of uncovered pixels of a smaller area, such as salt, are left out; at
    * least four pixels are. Larger finds less.
    */
   double speckArea = 1.0;
   /**
-   * Octants times lengthScale(), 0 or more: how far uncovered pixels may be from covered ones and yet be the skin that noise takes off all round. The
+   * Octants times lengthScale(), 0 to 1e9: how far uncovered pixels may be from covered ones and yet be the skin that noise takes off all round. The
    * default is as far as the local hulls take contours for each other's. Larger finds less.
    */
   double bridged = ContourLimit;

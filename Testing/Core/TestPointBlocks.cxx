@@ -104,7 +104,7 @@ TEST(PointBlocks, NeighboursAreThoseOfThePointsOneByOne)
     EXPECT_EQ(rest.empty(), expected.empty());
     PointBlocks same = set.beside(lattice, execution);
     GrowingPoints growing;
-    growing.add(std::vector<std::uint64_t>(others.begin(), others.end()));
+    growing.add(blocksOf(others).words());
     same.remove(growing, execution);
     EXPECT_EQ(same.points(execution), rest.points(execution));
   }

@@ -188,7 +188,7 @@ TEST(UncoveredShare, RefusesWhatDoesNotFit)
   };
   UncoveredShareOptions options;
   options.reach = -1.0;
-  refused(views, options, "reach -1.000000 is not a number of octants");
+  refused(views, options, "reach -1 is outside 0 to 1000000000");
   options = {};
   options.speckArea = std::nan("");
   refused(views, options, "speck area");
