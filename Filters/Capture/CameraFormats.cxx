@@ -164,7 +164,7 @@ const std::vector<CameraFormatTraits>& cameraFormats()
        [](const fs::path& file, const std::string&) { return isPmvsCameras(file); }, [](const fs::path& file) { return pmvsFolder(file).value_or(ownFolder(file)); },
        readPmvsCameras},
       {CameraFormat::Neus, "NeuS", "cameras_sphere.npz, cameras.npz (NeuS, IDR)", "integer", neusFilesIn,
-       [](const fs::path& file, const std::string&) { return isNeusCameras(file); }, ownFolder, readNeusCameras},
+       [](const fs::path& file, const std::string&) { return neusFile(file).has_value(); }, ownFolder, readNeusCameras},
   };
   return formats;
 }

@@ -48,6 +48,7 @@ TEST(CameraFormats, AreToldFromOneAnother)
   EXPECT_EQ(formatOfText("cameras.xml", "<?xml version=\"1.0\"?>\n<document version=\"1.5\"><chunk>\n"), CameraFormat::Metashape);
   EXPECT_EQ(formatOfText("txt/00000004.txt", "CONTOUR\n1 0 0 0\n"), CameraFormat::Pmvs);
   EXPECT_EQ(formatOfText("cameras.npz", "PK\x03\x04"), CameraFormat::Neus);
+  EXPECT_EQ(formatOfText("cameras.npz", "\x80 damaged"), CameraFormat::Neus) << "or the file would be taken for a list";
   EXPECT_EQ(formatOfText("cameras.txt", "# Camera list with one line of data per camera:\n1 PINHOLE 4 4 1 1 2 2\n"), CameraFormat::Colmap);
   EXPECT_EQ(formatOfText("images.bin", ""), CameraFormat::Colmap);
   for (const char* name : {"CONTOUR-1.png", "{a}.png"}) // images may be called so
