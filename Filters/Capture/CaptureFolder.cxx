@@ -230,6 +230,7 @@ void warnOfUnnamedImages(CaptureDescription& capture, const CameraFile& cameras)
     const fs::path within = nameWithin(capture.folder, view.name);
     named.insert((capture.folder / "images" / within).lexically_normal());
     named.insert((capture.folder / within).lexically_normal());
+    named.insert(findPhotograph(capture.folder, view).lexically_normal()); // of a name without an ending
   }
   std::vector<fs::path> unnamed;
   for (const fs::path& file : filesOf(capture.folder / "images"))

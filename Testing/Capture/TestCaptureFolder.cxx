@@ -359,9 +359,10 @@ TEST(CaptureFolder, TwoMasksOfAView)
 TEST(CaptureFolder, ImagesThatNoLineNames)
 {
   const TemporaryFolder folder;
-  folder.write("projections.txt", "a.png" + P + "images/b.png" + P);
+  folder.write("projections.txt", "a.png" + P + "images/b.png" + P + "c" + P);
   folder.write("images/a.png");
   folder.write("images/b.png");
+  folder.write("images/c.jpg");
   folder.write("images/readme.txt");
   EXPECT_TRUE(describeCapture(folder.path(), withViews("0")).warnings.empty());
   folder.write("images/z.JPG");
