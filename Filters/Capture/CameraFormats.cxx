@@ -37,15 +37,7 @@ std::vector<fs::path> projectionListsIn(const fs::path& folder)
 
 std::vector<fs::path> middleburyFilesIn(const fs::path& folder)
 {
-  const std::string ending = "_par.txt";
-  std::vector<fs::path> files = filesOf(folder);
-  const auto differs = [&](const fs::path& file)
-  {
-    const std::string name = file.filename().string();
-    return name.size() < ending.size() || name.compare(name.size() - ending.size(), ending.size(), ending) != 0;
-  };
-  files.erase(std::remove_if(files.begin(), files.end(), differs), files.end());
-  return files;
+  return filesEndingIn(folder, "_par.txt");
 }
 
 std::vector<fs::path> transformsIn(const fs::path& folder)
@@ -83,7 +75,8 @@ std::vector<fs::path> metashapeFilesIn(const fs::path& folder)
 
 std::vector<fs::path> pmvsFilesIn(const fs::path& folder)
 {
-  return isPmvsCameras(folder) ? std::vector<fs::path>{readPmvsCameras(folder).files.front()} : std::vector<fs::path>();
+  const auto capture = pmvsFolder(folder);
+  return capture ? std::vector<fs::path>{pmvsCameraFiles(*capture).front()} : std::vector<fs::path>(); // any of them stands for all
 }
 
 std::vector<fs::path> neusFilesIn(const fs::path& folder)

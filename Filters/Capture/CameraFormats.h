@@ -33,7 +33,8 @@ const std::vector<CameraFormatTraits>& cameraFormats();
 
 const CameraFormatTraits& traitsOf(CameraFormat format);
 
-/** The format of a camera file, from its name and its first 64 KiB. Throws InvalidInput where these are another program's that is not read, or the file cannot be. */
+/** The format of a camera file, from its name and its first 64 KiB. A file that cannot be read is a P list, whose reader says so. Throws InvalidInput where it begins as a
+ * format's that is read, but is none of its camera files. */
 const CameraFormatTraits& formatOf(const std::filesystem::path& file);
 
 } // namespace silhouette

@@ -21,20 +21,6 @@ namespace
 
 namespace fs = std::filesystem;
 
-bool endsWith(const std::string& text, const std::string& ending)
-{
-  return text.size() >= ending.size() &&
-         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
-
-std::vector<fs::path> filesEndingIn(const fs::path& folder, const std::string& ending)
-{
-  std::vector<fs::path> files = filesOf(folder);
-  const auto differs = [&](const fs::path& file) { return !endsWith(file.filename().string(), ending); };
-  files.erase(std::remove_if(files.begin(), files.end(), differs), files.end());
-  return files;
-}
-
 std::string listed(const std::vector<fs::path>& files)
 {
   std::string text;

@@ -40,6 +40,14 @@ std::vector<fs::path> filesOf(const fs::path& folder)
   return files;
 }
 
+std::vector<fs::path> filesEndingIn(const fs::path& folder, const std::string& ending)
+{
+  std::vector<fs::path> files = filesOf(folder);
+  const auto differs = [&](const fs::path& file) { return !endsWith(file.filename().string(), ending); };
+  files.erase(std::remove_if(files.begin(), files.end(), differs), files.end());
+  return files;
+}
+
 bool isImageName(const fs::path& path)
 {
   const std::string extension = lowerCase(path.extension().string());

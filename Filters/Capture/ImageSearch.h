@@ -18,6 +18,9 @@ bool isFile(const std::filesystem::path& path);
 /** The regular files of a folder, sorted by name; none where it cannot be read. */
 std::vector<std::filesystem::path> filesOf(const std::filesystem::path& folder);
 
+/** Those whose names end so. */
+std::vector<std::filesystem::path> filesEndingIn(const std::filesystem::path& folder, const std::string& ending);
+
 /** Does a name end as images' names do? */
 bool isImageName(const std::filesystem::path& path);
 

@@ -103,9 +103,7 @@ CameraFile viewsOf(const std::filesystem::path& file, const std::vector<TextLine
 
 bool isMiddlebury(const std::filesystem::path& file, const std::string& beginning)
 {
-  const std::string name = lowerCase(file.filename().string());
-  const std::string ending = "_par.txt";
-  if (name.size() >= ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0)
+  if (endsWith(lowerCase(file.filename().string()), "_par.txt"))
   {
     return true;
   }

@@ -3,7 +3,6 @@
 
 #include "CameraGeometry.h"
 #include "Error.h"
-#include "FileBytes.h"
 #include "ImageSearch.h"
 #include "NumpyArchive.h"
 #include "TextParsing.h"
@@ -116,12 +115,6 @@ std::optional<fs::path> neusFile(const fs::path& path)
     }
   }
   return std::nullopt;
-}
-
-bool isNeusCameras(const fs::path& path)
-{
-  const std::optional<fs::path> file = neusFile(path);
-  return file && fileBeginning(*file, 4).compare(0, 2, "PK") == 0;
 }
 
 CameraFile readNeusCameras(const fs::path& path)

@@ -26,9 +26,6 @@ namespace silhouette
 /** FOLDER/cameras_sphere.npz or else FOLDER/cameras.npz of a folder, an .npz file itself; nothing where there is none. Never throws InvalidInput. */
 std::optional<std::filesystem::path> neusFile(const std::filesystem::path& path);
 
-/** Is it such a folder or file, and does the file begin as an archive? */
-bool isNeusCameras(const std::filesystem::path& path);
-
 /**
  * Read the capture of such a path. Throws InvalidInput, naming file, array and value: what NumpyArchive.h throws; no world_mat_0, or
  * a gap in their numbers; another shape; a number that is not finite; neither images nor masks; images or masks of another number

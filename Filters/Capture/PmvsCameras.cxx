@@ -39,16 +39,6 @@ template <typename IsWanted> std::multimap<std::string, fs::path> numberedFiles(
   return files;
 }
 
-std::vector<fs::path> cameraFiles(const fs::path& folder)
-{
-  std::vector<fs::path> files;
-  for (const auto& [stem, file] : numberedFiles(folder / "txt", [](const fs::path& one) { return one.extension() == ".txt"; }))
-  {
-    files.push_back(file);
-  }
-  return files;
-}
-
 Projection readProjection(const fs::path& file)
 {
   const std::vector<TextLine> lines = readTextLines(file);
@@ -97,6 +87,16 @@ std::string fileOf(const fs::path& folder, const std::multimap<std::string, fs::
 
 } // namespace
 
+std::vector<fs::path> pmvsCameraFiles(const fs::path& folder)
+{
+  std::vector<fs::path> files;
+  for (const auto& [stem, file] : numberedFiles(folder / "txt", [](const fs::path& one) { return one.extension() == ".txt"; }))
+  {
+    files.push_back(file);
+  }
+  return files;
+}
+
 std::optional<fs::path> pmvsFolder(const fs::path& path)
 {
   std::error_code error;
@@ -113,7 +113,7 @@ std::optional<fs::path> pmvsFolder(const fs::path& path)
   {
     return std::nullopt;
   }
-  const std::vector<fs::path> cameras = cameraFiles(folder);
+  const std::vector<fs::path> cameras = pmvsCameraFiles(folder);
   const bool begins = !cameras.empty() && withoutLeadingBlanks(fileBeginning(cameras[0], 64)).substr(0, 7) == "CONTOUR";
   return begins ? std::optional(folder) : std::nullopt;
 }
@@ -135,7 +135,7 @@ CameraFile readPmvsCameras(const fs::path& path)
   CameraFile cameras;
   cameras.format = CameraFormat::Pmvs;
   cameras.freeSign = true;
-  cameras.files = cameraFiles(*folder);
+  cameras.files = pmvsCameraFiles(*folder);
   for (const fs::path& file : cameras.files)
   {
     NamedProjection view;

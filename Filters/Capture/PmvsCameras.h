@@ -29,6 +29,9 @@ namespace silhouette
  */
 std::optional<std::filesystem::path> pmvsFolder(const std::filesystem::path& path);
 
+/** The camera files of FOLDER, by their numbers; none where there is no folder `txt`. Never throws InvalidInput. */
+std::vector<std::filesystem::path> pmvsCameraFiles(const std::filesystem::path& folder);
+
 /** Is it one of these three? */
 bool isPmvsCameras(const std::filesystem::path& path);
 

@@ -188,6 +188,11 @@ std::string formatNumber(double value)
   return std::string(buffer.data(), result.ptr);
 }
 
+bool endsWith(std::string_view text, std::string_view ending)
+{
+  return text.size() >= ending.size() && text.substr(text.size() - ending.size()) == ending;
+}
+
 std::string lowerCase(std::string text)
 {
   for (char& c : text)

@@ -46,6 +46,9 @@ std::string inQuotes(std::string_view text);
 /** A number as short as it can be written, for messages: 0.08, nan. */
 std::string formatNumber(double value);
 
+/** Does `text` end so? */
+bool endsWith(std::string_view text, std::string_view ending);
+
 /** `text` with the letters A to Z made small. */
 std::string lowerCase(std::string text);
 

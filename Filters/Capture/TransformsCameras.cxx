@@ -2,6 +2,7 @@
 #include "TransformsCameras.h"
 
 #include "Error.h"
+#include "FileBytes.h"
 #include "ImageSearch.h"
 #include "TextParsing.h"
 
@@ -341,8 +342,8 @@ Json parsed(const fs::path& file)
 
 bool isTransforms(const std::string& beginning)
 {
-  const std::size_t first = beginning.find_first_not_of(" \t\r\n", beginning.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0);
-  return first != std::string::npos && beginning[first] == '{' && beginning.find("\"frames\"") != std::string::npos;
+  const std::string_view text = withoutLeadingBlanks(beginning);
+  return text.substr(0, 1) == "{" && text.find("\"frames\"") != std::string_view::npos;
 }
 
 CameraFile readTransformsCameras(const fs::path& file)

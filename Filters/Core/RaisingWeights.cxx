@@ -136,6 +136,7 @@ std::vector<std::uint8_t> RaisingWeights::near(const BrickField& field) const
 {
   const int reach = (this->Radius + Side - 1) / Side;
   std::vector<std::uint8_t> near(field.bricks().size(), 0);
+  BrickCursor bricks(field); // neighbours have neighbours in common
   for (const std::uint64_t code : this->Bricks)
   {
     const LatticePoint brick = fromMorton(code);
@@ -145,10 +146,10 @@ std::vector<std::uint8_t> RaisingWeights::near(const BrickField& field) const
       {
         for (p.i = brick.i - reach; p.i <= brick.i + reach; ++p.i)
         {
-          const std::ptrdiff_t n = std::min({ p.i, p.j, p.k }) < 0 ? -1 : field.findBrick(mortonCode(p));
-          if (n >= 0)
+          const std::ptrdiff_t point = std::min({ p.i, p.j, p.k }) < 0 ? -1 : bricks.find(mortonCode(p) * BrickField::BrickPoints);
+          if (point >= 0)
           {
-            near[std::size_t(n)] = 1;
+            near[std::size_t(point) / BrickField::BrickPoints] = 1;
           }
         }
       }

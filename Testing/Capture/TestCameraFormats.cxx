@@ -71,7 +71,7 @@ TEST(CameraFormats, WhatIsNotReadIsCalledByItsName)
   }
 }
 
-/** Of each format the camera file, and what is found once it lies in the folder beside those of the formats that come later. */
+/** Of each format, the last first, the camera file; it is found once it lies in the folder beside those of the formats that come later. */
 TEST(CameraFormats, AFolderIsSearchedInTheirOrder)
 {
   const TemporaryFolder folder;
@@ -80,10 +80,10 @@ TEST(CameraFormats, AFolderIsSearchedInTheirOrder)
                                                                     {"txt/00000000.txt", "CONTOUR\n1 0 0 0 0 1 0 0 0 0 1 0\n"},
                                                                     {"my.xml", "<document><chunk>"},
                                                                     {"cameras.yml", "%YAML:1.0\n---\nviews: []\n"},
-                                                                    {"sparse/0/cameras.txt", ""},
+                                                                    {"sparse/0/images.txt", ""},
                                                                     {"transforms.json", "{\"frames\": []}"},
                                                                     {"projections.txt", ""}}};
-  folder.write("sparse/0/images.txt", "");
+  folder.write("sparse/0/cameras.txt", "");
   for (const auto& [name, text] : files)
   {
     folder.write(name, text);
@@ -93,7 +93,7 @@ TEST(CameraFormats, AFolderIsSearchedInTheirOrder)
       found = found.empty() ? traits.filesIn(folder.path()) : found;
     }
     ASSERT_EQ(found.size(), 1u) << name;
-    EXPECT_TRUE(found[0] == folder.path() / name || found[0].parent_path() == (folder.path() / name).parent_path()) << found[0];
+    EXPECT_EQ(found[0], folder.path() / name);
   }
 }
 

@@ -69,7 +69,7 @@ TEST(NeusCameras, MatricesImagesAndMasks)
   folder.write("mask/a.png");
   for (const std::filesystem::path& path : { folder.path(), folder.path() / "cameras_sphere.npz" })
   {
-    EXPECT_TRUE(isNeusCameras(path));
+    EXPECT_EQ(neusFile(path), folder.path() / "cameras_sphere.npz");
     const CameraFile cameras = readNeusCameras(path);
     EXPECT_EQ(cameras.format, CameraFormat::Neus);
     EXPECT_EQ(formatName(cameras.format), "NeuS");
@@ -157,12 +157,13 @@ TEST(NeusCameras, WrongArrays)
 TEST(NeusCameras, ToldByTheirFile)
 {
   const TemporaryFolder folder;
-  EXPECT_FALSE(isNeusCameras(folder.path()));
-  EXPECT_FALSE(isNeusCameras(folder.path() / "none"));
-  folder.write("cameras.npz", "text");
-  EXPECT_FALSE(isNeusCameras(folder.path()));
+  const std::filesystem::path other = folder.path() / "cameras.npz", own = folder.path() / "cameras_sphere.npz";
+  EXPECT_FALSE(neusFile(folder.path()));
+  EXPECT_FALSE(neusFile(other));
   write(folder, "cameras.npz", {});
-  EXPECT_TRUE(isNeusCameras(folder.path()));
-  EXPECT_TRUE(isNeusCameras(folder.path() / "cameras.npz"));
-  EXPECT_FALSE(isNeusCameras(folder.write("cameras.zip", "PK")));
+  EXPECT_EQ(neusFile(folder.path()), other);
+  write(folder, "cameras_sphere.npz", {});
+  EXPECT_EQ(neusFile(folder.path()), own);
+  EXPECT_EQ(neusFile(other), other);
+  EXPECT_FALSE(neusFile(folder.write("cameras.zip", "PK")));
 }

@@ -110,3 +110,11 @@ TEST(TextParsing, SmallHelpers)
   EXPECT_EQ(formatNumber(std::numeric_limits<double>::quiet_NaN()), "nan");
   EXPECT_EQ(lowerCase("BLUE.Png"), "blue.png");
 }
+
+TEST(TextParsing, EndsWith)
+{
+  EXPECT_TRUE(endsWith("a_par.txt", "_par.txt"));
+  EXPECT_TRUE(endsWith("a", ""));
+  EXPECT_FALSE(endsWith("par.txt", "_par.txt"));
+  EXPECT_FALSE(endsWith("a_par.txt.gz", "_par.txt"));
+}

@@ -129,7 +129,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   isOpenCVCameras(file);
   isMetashapeCameras(file);
   isPmvsCameras(file);
-  isNeusCameras(file);
+  neusFile(file);
   kind < 3 ? check(readOpenCVCameras, file) : kind == 3 ? check(readMetashapeCameras, file)
     : kind == 4                                         ? check(readPmvsCameras, file)
                                                         : check(readNeusCameras, file);
