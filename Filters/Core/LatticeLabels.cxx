@@ -332,24 +332,33 @@ void LatticeLabels::setSurvivors(const std::vector<std::uint64_t>& cells, Execut
 
 void LatticeLabels::widen(CornerShell shell, Execution& execution)
 {
-  std::vector<std::uint8_t> inside(shell.corners.size());
-  std::vector<float> support(shell.corners.size(), 0.0f);
+  std::vector<std::uint8_t> inside;
+  std::vector<float> support;
+  resizeSideBySide(inside, shell.corners.size(), execution);
+  resizeSideBySide(support, shell.corners.size(), execution);
   execution.forRanges(shell.corners.size(), 4096,
     [&](std::size_t first, std::size_t last)
     {
-      CodeCursor known(this->Shell.corners);
+      Corner known = std::lower_bound(this->Shell.corners.begin(), this->Shell.corners.end(), shell.corners[first]);
       OctantCursor octants(this->octree());
-      for (std::size_t c = first; c < last;)
+      std::uint64_t block = ~std::uint64_t(0), labels = 0; // of a block with further corners
+      for (std::size_t c = first; c < last; ++c)
       {
-        const std::uint64_t block = shell.corners[c] >> 6;
-        Corner corner = std::lower_bound(this->Shell.corners.begin(), this->Shell.corners.end(), 64 * block);
-        const std::uint64_t labels = this->insideOfBlock(block, corner, octants);
-        for (; c < last && shell.corners[c] >> 6 == block; ++c)
+        const std::uint64_t code = shell.corners[c];
+        if (known != this->Shell.corners.end() && *known == code)
         {
-          const std::ptrdiff_t at = known.find(shell.corners[c]);
-          inside[c] = std::uint8_t(labels >> (shell.corners[c] & 63) & 1);
-          support[c] = at >= 0 ? this->Support[std::size_t(at)] : 0.0f;
+          const auto at = std::size_t(known++ - this->Shell.corners.begin());
+          inside[c] = this->Inside[at];
+          support[c] = this->Support[at];
+          continue;
         }
+        if (code >> 6 != block)
+        {
+          block = code >> 6;
+          labels = withinBorder(this->octree().lattice, block) & this->Far.insideOfBlock(block, octants);
+        }
+        inside[c] = std::uint8_t(labels >> (code & 63) & 1);
+        support[c] = 0.0f;
       }
     });
   const std::vector<std::uint64_t> survivors = selected(

@@ -98,10 +98,17 @@ void widenAround(LatticeLabels& labels, CoveringResult& covering, const std::vec
     [&](std::uint64_t cell) { return std::uint32_t(labels.shell().findCell(fromMorton(cell))); });
 }
 
-/** Label lattice points inside. */
-void labelInside(LatticeLabels& labels, CoveringResult& covering, const std::vector<std::uint64_t>& points, Execution& execution)
+/** Label lattice points inside, the shell being widened around these and, where it is widened at all, around others. */
+void labelInside(LatticeLabels& labels, CoveringResult& covering, const std::vector<std::uint64_t>& points,
+  const std::vector<std::uint64_t>& others, Execution& execution)
 {
-  widenAround(labels, covering, points, execution);
+  if (points.empty())
+  {
+    return;
+  }
+  std::vector<std::uint64_t> all = points;
+  all.insert(all.end(), others.begin(), others.end());
+  widenAround(labels, covering, all, execution);
   for (const std::uint64_t point : points)
   {
     labels.setInside(std::size_t(labels.shell().find(point)));
@@ -109,19 +116,20 @@ void labelInside(LatticeLabels& labels, CoveringResult& covering, const std::vec
 }
 
 /**
- * Join handles that noise has cut, and fill narrow tunnels; returns the corners that were labelled inside.
+ * Join handles that noise has cut, and fill narrow tunnels; returns the corners that were labelled inside. `added`: the covering ones, around which the shell will be
+ * widened.
  */
-std::vector<std::uint64_t> mendTopology(LatticeLabels& labels, CoveringResult& covering, const LocalHullOptions& options,
-  LocalHullSurface& surface, Execution& execution)
+std::vector<std::uint64_t> mendTopology(LatticeLabels& labels, CoveringResult& covering, const std::vector<std::uint64_t>& added,
+  const LocalHullOptions& options, LocalHullSurface& surface, Execution& execution)
 {
   Phase joining(execution, 0.0, 0.5);
   std::vector<std::uint64_t> points = handleJoints(labels, surface.deficit, options.handles, joining);
   surface.handleCorners = points.size();
-  labelInside(labels, covering, points, execution);
+  labelInside(labels, covering, points, {}, execution);
   Phase filling(execution, 0.5, 1.0);
   const auto walls = tunnelWalls(labels, options.tunnels, filling);
   surface.tunnelCorners = walls.size();
-  labelInside(labels, covering, walls, execution);
+  labelInside(labels, covering, walls, added, execution);
   points.insert(points.end(), walls.begin(), walls.end());
   return points;
 }
@@ -233,7 +241,7 @@ bool coverAndContour(LatticeLabels& labels, const Survivors& survivors, SurfaceC
   execution.checkpoint(0.3);
   auto added = codesOf(labels.shell(), covering.coveringCorners);
   Phase mending(execution, 0.3, 0.4);
-  const auto mended = mendTopology(labels, covering, options, surface, mending);
+  const auto mended = mendTopology(labels, covering, added, options, surface, mending);
   added.insert(added.end(), mended.begin(), mended.end());
   std::sort(added.begin(), added.end());
   if (options.fillCavities && (covering.mayEnclose || !mended.empty()))
