@@ -93,6 +93,19 @@ std::uint32_t BlockRegions::octant(int generation, std::size_t index) const
   return this->IsMember[place] != 0 ? std::uint32_t(this->Parts.size() + place) : None;
 }
 
+/** The octant at a code of a generation, of which one beside it is known: siblings follow one another. */
+Octree::Location BlockRegions::beside(int g, std::size_t known, std::uint64_t code, OctantCursor& cursor) const
+{
+  const Generation& generation = this->Source->generations[std::size_t(g)];
+  if (g > this->Source->treeGeneration && generation.code[known] >> 3 == code >> 3)
+  {
+    const std::size_t index = (known & ~std::size_t(7)) + std::size_t(code & 7);
+    const OctantState state = generation.state[index];
+    return { state == OctantState::Intersection ? g + 1 : g, index, state };
+  }
+  return cursor.locate(code << 3 * (this->Source->lattice.depth - g));
+}
+
 /** Across faces. Every pair of neighbours is met from its smaller octant, those of one size from both. */
 void BlockRegions::joinOctants(Execution& execution)
 {
@@ -118,7 +131,7 @@ void BlockRegions::joinOctants(Execution& execution)
               }
               continue;
             }
-            const auto beside = cursor.locate(code << 3 * (this->Source->lattice.depth - g));
+            const Octree::Location beside = this->beside(g, i, code, cursor);
             const std::uint32_t other = beside.generation <= g ? this->octant(beside.generation, beside.index) : None;
             if (other != None)
             {

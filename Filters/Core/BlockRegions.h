@@ -61,6 +61,7 @@ private:
 
   void findParts(Steps steps, const std::vector<std::uint64_t>& members, Execution& execution);
   void findOctants(OctantState state, Execution& execution);
+  Octree::Location beside(int g, std::size_t known, std::uint64_t code, OctantCursor& cursor) const;
   void joinOctants(Execution& execution);
   void joinBlocks(Steps steps, Execution& execution);
   void joinElsewhere(std::size_t block, const BlocksAround& around, const BlockDirection& direction, OctantCursor& cursor);

@@ -88,8 +88,8 @@ std::vector<Rejected> rejectedOnce(const Octree& octree, const LatticeViews& vie
                                   });
                         }
                       });
-  rejected.erase(std::remove_if(rejected.begin(), rejected.end(), [](const Rejected& one) { return one.view < 0; }), rejected.end());
-  return rejected;
+  return selected(
+    rejected.size(), [&](std::size_t i) { return rejected[i].view >= 0; }, [&](std::size_t i) { return rejected[i]; }, execution);
 }
 
 /** The shell's corners that one view may alone reject: all where the octree was carved from other views; else `votes` are found as well. */
