@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossingPlacer.h"
 
+#include "CodeCursor.h"
+
 #include <algorithm>
 
 namespace silhouette
@@ -41,13 +43,14 @@ std::vector<double> CrossingPlacer::fractions(const CornerShell& shell, const La
     {
       // Crossings are in the edges' own order.
       const CrossedEdge& start = contoured.edges[first];
+      std::optional<BrickCursor> bricks = this->Field ? std::optional<BrickCursor>(*this->Field) : std::nullopt;
       Known known = this->from(keyOf(shell.corners[start.inside], shell.corners[start.outside]));
       for (std::size_t e = first; e < last; ++e)
       {
         const CrossedEdge& edge = contoured.edges[e];
         const std::uint64_t inside = shell.corners[edge.inside], outside = shell.corners[edge.outside];
         fractions[e] = isAdded[edge.inside] ? this->CoverOffset
-                                            : std::clamp(this->Field ? this->inField(inside, outside)
+                                            : std::clamp(this->Field ? this->inField(inside, outside, *bricks)
                                                                      : this->onSurface(inside, outside, known),
                                                 CrossingMargin, 1.0 - CrossingMargin);
       }
@@ -59,16 +62,17 @@ std::vector<double> CrossingPlacer::fractions(const CornerShell& shell, const La
 std::vector<std::uint8_t> CrossingPlacer::addedCorners(const CornerShell& shell) const
 {
   std::vector<std::uint8_t> isAdded(shell.corners.size(), 0);
+  CodeCursor corners(shell.corners);
   for (const std::uint64_t corner : this->Added)
   {
-    isAdded[std::size_t(shell.find(corner))] = 1;
+    isAdded[std::size_t(corners.find(corner))] = 1;
   }
   return isAdded;
 }
 
-double CrossingPlacer::inField(std::uint64_t inside, std::uint64_t outside) const
+double CrossingPlacer::inField(std::uint64_t inside, std::uint64_t outside, BrickCursor& bricks) const
 {
-  const std::ptrdiff_t a = this->Field->find(inside), b = this->Field->find(outside);
+  const std::ptrdiff_t a = bricks.find(inside), b = bricks.find(outside);
   if (a < 0 || b < 0)
   {
     return 0.5;

@@ -36,7 +36,7 @@ private:
   using Known = std::vector<LatticeCrossing>::const_iterator;
 
   std::vector<std::uint8_t> addedCorners(const CornerShell& shell) const;
-  double inField(std::uint64_t inside, std::uint64_t outside) const;
+  double inField(std::uint64_t inside, std::uint64_t outside, BrickCursor& bricks) const;
   Known from(std::uint64_t key) const;
   double onSurface(std::uint64_t inside, std::uint64_t outside, Known& known) const;
 

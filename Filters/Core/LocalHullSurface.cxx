@@ -2,6 +2,7 @@
 #include "LocalHullSurface.h"
 
 #include "CellSafety.h"
+#include "CodeCursor.h"
 #include "CrossingPlacer.h"
 #include "IndicesWhere.h"
 #include "LabelCache.h"
@@ -94,8 +95,8 @@ void widenAround(LatticeLabels& labels, CoveringResult& covering, const std::vec
     covered.push_back(labels.shell().cells[cell]);
   }
   labels.widen(withCells(labels.shell(), missing, execution), execution);
-  std::transform(covered.begin(), covered.end(), covering.coveredCells.begin(),
-    [&](std::uint64_t cell) { return std::uint32_t(labels.shell().findCell(fromMorton(cell))); });
+  CodeCursor cells(labels.shell().cells);
+  std::transform(covered.begin(), covered.end(), covering.coveredCells.begin(), [&](std::uint64_t cell) { return std::uint32_t(cells.find(cell)); });
 }
 
 /** Label lattice points inside, the shell being widened around these and, where it is widened at all, around others. */
