@@ -208,10 +208,10 @@ private:
       std::copy_n(least, BlockPoints, &this->Least.values()[block]);
       std::copy_n(least + std::size_t(rank - 1) * BlockPoints, BlockPoints, &this->Ranked[block]);
     };
-    const auto allAreFar = [far = float(this->Views.reach())](std::size_t, const BlockGroups&, const float* greatest)
-    { return std::all_of(greatest, greatest + BlockPoints, [far](float value) { return value <= -far; }); };
+    const auto areFar = [far = float(this->Views.reach())](std::size_t, const BlockGroups&, std::size_t from, const float* greatest)
+    { return std::size_t(std::find_if(greatest + from, greatest + BlockPoints, [far](float value) { return value > -far; }) - greatest); };
     const auto all = [](std::size_t) { return BlockGroups::all(); };
-    forLeastDistances(this->Least, this->Views, rank, [&] { return BlockQuestions{ all, allAreFar, take }; }, execution);
+    forLeastDistances(this->Least, this->Views, rank, [&] { return BlockQuestions{ all, areFar, take }; }, execution);
   }
 
   /** From the least distance to the model, and from the model to where the views agree. */

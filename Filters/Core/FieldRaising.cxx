@@ -59,15 +59,15 @@ public:
     return this->Weights.groups(block % BrickField::BrickPoints);
   }
 
-  bool isSettled(std::size_t block, const BlockGroups& groups, const float* greatest) const
+  std::size_t settled(std::size_t block, const BlockGroups& groups, std::size_t from, const float* greatest) const
   {
     const float* const values = &this->Field.values()[block];
-    std::size_t n = 0;
+    std::size_t n = from;
     while (n < groups.points() && (greatest[n] - Margin <= values[groups.point(n)] || this->weight(block, groups.point(n)) == 0.0f))
     {
       ++n;
     }
-    return n == groups.points();
+    return n;
   }
 
   void take(std::size_t block, const BlockGroups& groups, const float* least)

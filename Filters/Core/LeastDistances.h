@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -19,15 +21,15 @@ namespace silhouette
 void keepLeast(float* distances, std::size_t points, float* least, int rank);
 
 /** What is asked about blocks, by functions that may be called side by side: see forLeastDistances(). */
-template <typename Concerned, typename IsSettled, typename Take>
+template <typename Concerned, typename Settled, typename Take>
 struct BlockQuestions
 {
   Concerned concerned;
-  IsSettled isSettled;
+  Settled settled;
   Take take;
 };
-template <typename Concerned, typename IsSettled, typename Take>
-BlockQuestions(Concerned, IsSettled, Take) -> BlockQuestions<Concerned, IsSettled, Take>;
+template <typename Concerned, typename Settled, typename Take>
+BlockQuestions(Concerned, Settled, Take) -> BlockQuestions<Concerned, Settled, Take>;
 
 /** The work of forLeastDistances() on some blocks. */
 template <typename Questions>
@@ -40,6 +42,7 @@ public:
     , Rank(std::size_t(rank))
     , Asked(std::move(questions))
     , Kept(std::size_t(rank) * Places)
+    , Use(std::size_t(views.size()), 0.0f)
   {
   }
 
@@ -51,15 +54,24 @@ public:
     std::fill(this->Kept.begin(), this->Kept.end(), float(this->Views.reach()));
     const float* const greatest = &this->Kept[(this->Rank - 1) * Places];
     float distance[Places];
-    for (std::size_t i = 0; i < near.size() && !this->Asked.isSettled(block, groups, greatest); ++i)
+    std::size_t settled = this->Asked.settled(block, groups, 0, greatest);
+    if (settled < groups.points())
     {
-      const auto& [view, region] = near[i];
+      this->order(near);
+    }
+    for (std::size_t i = 0; i < near.size() && settled < groups.points(); ++i)
+    {
+      const auto& [view, region] = near[this->Order[i]];
       if (i + 1 < near.size())
       {
-        this->Views.fetch(this->Views.observed(near[i + 1].view), near[i + 1].region);
+        const NearView& next = near[this->Order[i + 1]];
+        this->Views.fetch(this->Views.observed(next.view), next.region);
       }
       this->Views.insideBlock(view, lowest, region, groups, this->Views.observed(view), distance);
       keepLeast(distance, groups.points(), this->Kept.data(), int(this->Rank));
+      const std::size_t before = settled;
+      settled = this->Asked.settled(block, groups, before, greatest);
+      this->Use[std::size_t(view)] += Forgetting * (float(settled - before) - this->Use[std::size_t(view)]);
     }
     const bool atBorder = touchesBorder(this->Views.lattice(), lowest);
     for (std::size_t n = 0; n < groups.points() && atBorder; ++n)
@@ -74,19 +86,36 @@ public:
 
 private:
   static constexpr std::size_t Places = FieldViews::BlockPoints;
+  static constexpr float Forgetting = 0.25f;
+
+  /** The views that have settled most of late come first, a few of them. */
+  void order(const std::vector<NearView>& near)
+  {
+    constexpr std::size_t few = 4;
+    this->Order.resize(near.size());
+    std::iota(this->Order.begin(), this->Order.end(), std::uint32_t(0));
+    for (std::size_t first = 0; first < std::min(few, near.size()); ++first)
+    {
+      const auto least = [&](std::uint32_t a, std::uint32_t b) { return this->Use[std::size_t(near[a].view)] < this->Use[std::size_t(near[b].view)]; };
+      std::iter_swap(this->Order.begin() + std::ptrdiff_t(first), std::max_element(this->Order.begin() + std::ptrdiff_t(first), this->Order.end(), least));
+    }
+  }
 
   const BrickField& Field;
   const FieldViews& Views;
   std::size_t Rank;
   Questions Asked;
   std::vector<float> Kept; ///< the least so far, Places for each rank
+  std::vector<float> Use;  ///< of each view: points that it has settled of late
+  std::vector<std::uint32_t> Order; ///< in which a block's views are asked
 };
 
 /**
  * `makeQuestions()` makes what is asked about each range of bricks, perhaps side by side: `take(block, groups, least)` is called for each block of the field's of which `concerned(block)` names
  * any groups, with its first point's index, these groups and the `rank` least distances of their points, octants, one group's after another's, FieldViews::BlockPoints places for each rank, the
- * least first: the whole reach outside, all of them, at points on the root cube's border. No further view is asked about a block once `isSettled(block, groups, greatest)` holds for the
- * greatest of each point's: they may be greater then than they would be. `views` have to be observed, all of them, on the field's lattice.
+ * least first: the whole reach outside, all of them, at points on the root cube's border. `settled(block, groups, from, greatest)`
+ * tells the first of their points, from the `from`-th on, for which the greatest does not suffice, and how many points there are where there is none: then no further view is asked about the
+ * block, and the distances may be greater than they would be. Once a point suffices it has to go on to, as the greatest falls. `views` have to be observed, all of them, on the field's lattice.
  */
 template <typename MakeQuestions>
 void forLeastDistances(const BrickField& field, const FieldViews& views, int rank, const MakeQuestions& makeQuestions, Execution& execution)

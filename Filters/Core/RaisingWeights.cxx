@@ -95,6 +95,18 @@ std::size_t rowOf(const LatticePoint& inBrick)
   return std::size_t(inBrick.j + BrickSide * inBrick.k);
 }
 
+/** Where a brick's points, in Morton order, are among its rows. */
+std::array<std::uint16_t, BrickField::BrickPoints> placesInRows()
+{
+  std::array<std::uint16_t, BrickField::BrickPoints> places{};
+  for (std::size_t n = 0; n < places.size(); ++n)
+  {
+    const LatticePoint p = fromMorton(n);
+    places[n] = std::uint16_t(rowOf(p) * std::size_t(BrickSide) + std::size_t(p.i));
+  }
+  return places;
+}
+
 } // namespace
 
 RaisingWeights::RaisingWeights(const std::vector<std::uint64_t>& cells, double width, Execution& execution)
@@ -213,10 +225,10 @@ void RaisingWeights::Brick::moveTo(std::uint64_t brick)
   float sums[BrickField::BrickPoints];
   sumAlong(window, this->All.Steps.data(), this->Along.data());
   sumAcross(window, this->All.Kernel.data(), this->Along.data(), this->Across.data(), sums);
+  static const auto places = placesInRows();
   for (std::size_t n = 0; n < BrickField::BrickPoints; ++n)
   {
-    const LatticePoint p = fromMorton(n);
-    const float w = std::min(1.0f, this->All.Gain * sums[rowOf(p) * Side + std::size_t(p.i)]);
+    const float w = std::min(1.0f, this->All.Gain * sums[places[n]]);
     this->Weights[n] = w < LeastWeight ? 0.0f : w * w * (3.0f - 2.0f * w);
   }
 }

@@ -71,7 +71,7 @@ TEST(LeastDistances, AreThoseOfTheViewsThatAreLeastAndOutsideOnTheBorder)
   std::vector<float> taken(rank * field.size(), -100.0f);
   const auto concerns = [](std::size_t block) { return BlockGroups(std::uint8_t(block / Points * 37)); }; // any groups; none of some blocks
   ThreadedExecution threads(3);
-  const auto never = [](std::size_t, const BlockGroups&, const float*) { return false; };
+  const auto never = [](std::size_t, const BlockGroups&, std::size_t from, const float*) { return from; };
   const auto take = [&](std::size_t block, const BlockGroups& groups, const float* least)
   {
     for (int k = 0; k < rank; ++k)
@@ -147,16 +147,20 @@ TEST(LeastDistances, NoFurtherViewIsAskedAboutWhatIsSettled)
   { return [&values](std::size_t block, const BlockGroups&, const float* least) { std::copy_n(least, Points, &values[block]); }; };
   const auto isAny = [](std::size_t) { return BlockGroups::all(); };
   int asked = 0;
-  const auto never = [&](std::size_t, const BlockGroups&, const float*) { return ++asked < 0; };
+  const auto never = [&](std::size_t, const BlockGroups&, std::size_t from, const float*)
+  {
+    ++asked;
+    return from;
+  };
   forLeastDistances(field, seen, 1, [&] { return BlockQuestions{ isAny, never, into(exact) }; }, execution);
   const int whole = asked;
   asked = 0;
-  const auto isNegative = [&](std::size_t, const BlockGroups&, const float* greatest)
+  const auto areNegative = [&](std::size_t, const BlockGroups&, std::size_t from, const float* greatest)
   {
     ++asked;
-    return std::all_of(greatest, greatest + Points, [](float value) { return value <= 0.0f; });
+    return std::size_t(std::find_if(greatest + from, greatest + Points, [](float value) { return value > 0.0f; }) - greatest);
   };
-  forLeastDistances(field, seen, 1, [&] { return BlockQuestions{ isAny, isNegative, into(bounds) }; }, execution);
+  forLeastDistances(field, seen, 1, [&] { return BlockQuestions{ isAny, areNegative, into(bounds) }; }, execution);
   EXPECT_LT(asked, whole);
   int same = 0, other = 0;
   for (std::size_t n = 0; n < field.size(); ++n)
