@@ -115,7 +115,7 @@ private:
  * any groups, with its first point's index, these groups and the `rank` least distances of their points, octants, one group's after another's, FieldViews::BlockPoints places for each rank, the
  * least first: the whole reach outside, all of them, at points on the root cube's border. `settled(block, groups, from, greatest)`
  * tells the first of their points, from the `from`-th on, for which the greatest does not suffice, and how many points there are where there is none: then no further view is asked about the
- * block, and the distances may be greater than they would be. Once a point suffices it has to go on to, as the greatest falls. `views` have to be observed, all of them, on the field's lattice.
+ * block, and the distances may be greater than they would be. A point that suffices has to go on sufficing as the greatest falls. `views` have to be observed, all of them, on the field's lattice.
  */
 template <typename MakeQuestions>
 void forLeastDistances(const BrickField& field, const FieldViews& views, int rank, const MakeQuestions& makeQuestions, Execution& execution)
