@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ColmapCameras.h"
 
+#include "CameraGeometry.h"
 #include "ColmapFiles.h"
 #include "Error.h"
+#include "FileBytes.h"
 #include "ImageSearch.h"
 #include "TextParsing.h"
 
@@ -13,6 +15,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <sstream>
 
 namespace silhouette
 {
@@ -25,7 +28,7 @@ namespace fs = std::filesystem;
 /** A camera, of the integer family. */
 struct Camera
 {
-  Eigen::Matrix3d intrinsics = Eigen::Matrix3d::Identity();
+  Matrix3 intrinsics = Matrix3::Identity();
   std::optional<LensDistortion> lens;
   int width = 0;
   int height = 0;
@@ -80,6 +83,30 @@ std::map<std::uint32_t, Camera> camerasOf(const std::vector<ColmapCamera>& store
   return cameras;
 }
 
+/** Of cameras as text the second word is a model's name; in a P list of that name it is a number. */
+bool namesModels(const fs::path& cameraFile)
+{
+  constexpr std::size_t enough = std::size_t(64) << 10;
+  std::istringstream lines(fileBeginning(cameraFile, enough));
+  std::string line, number, model;
+  while (std::getline(lines, line))
+  {
+    std::istringstream words(line);
+    if (words >> number && number[0] != '#')
+    {
+      return !(words >> model) || !parseFinite(model);
+    }
+  }
+  return true;
+}
+
+/** Is there the pair of files, with this extension? */
+bool isModel(const fs::path& folder, const std::string& extension)
+{
+  const fs::path cameras = folder / ("cameras" + extension);
+  return isFile(folder / ("images" + extension)) && isFile(cameras) && (extension == ".bin" || namesModels(cameras));
+}
+
 NamedProjection viewOf(const ColmapImage& image, const std::map<std::uint32_t, Camera>& cameras, const fs::path& cameraFile)
 {
   const auto found = cameras.find(image.camera);
@@ -100,13 +127,8 @@ NamedProjection viewOf(const ColmapImage& image, const std::map<std::uint32_t, C
   view.name = image.name;
   view.line = image.line;
   view.where = image.where;
-  view.projection.leftCols<3>() = turn.normalized().toRotationMatrix();
-  view.projection.col(3) = Vector3(image.pose[4], image.pose[5], image.pose[6]);
-  view.projection = camera.intrinsics * view.projection;
-  if (!view.projection.allFinite())
-  {
-    throw InvalidInput(image.where + ": K [R t] of image " + inQuotes(image.name) + " is too large to be finite");
-  }
+  view.projection = composedProjection(camera.intrinsics, turn.normalized().toRotationMatrix(), Vector3(image.pose[4], image.pose[5], image.pose[6]),
+                                       image.where + ": image " + inQuotes(image.name));
   view.lens = camera.lens;
   view.width = camera.width;
   view.height = camera.height;
@@ -117,12 +139,11 @@ NamedProjection viewOf(const ColmapImage& image, const std::map<std::uint32_t, C
 
 fs::path colmapModelIn(const fs::path& folder)
 {
-  for (const char* extension : {".bin", ".txt"})
+  for (const std::string extension : {".bin", ".txt"})
   {
-    const fs::path images = folder / (std::string("images") + extension);
-    if (isFile(images) && isFile(folder / (std::string("cameras") + extension)))
+    if (isModel(folder, extension))
     {
-      return images;
+      return folder / ("images" + extension);
     }
   }
   return {};
@@ -135,7 +156,7 @@ bool isColmapFile(const fs::path& file)
   {
     return false;
   }
-  if (extension == ".bin" || isFile(fs::path(file).replace_filename((stem == "images" ? "cameras" : "images") + extension)))
+  if (extension == ".bin" || isModel(file.parent_path(), extension))
   {
     return true;
   }

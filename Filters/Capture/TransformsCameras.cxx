@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TransformsCameras.h"
 
+#include "CameraGeometry.h"
 #include "Error.h"
 #include "FileBytes.h"
 #include "ImageSearch.h"
@@ -293,14 +294,10 @@ Frame frameOf(const Json& json, const Json& all, std::string where)
 NamedProjection viewOf(const Frame& frame, int width, int height)
 {
   NamedProjection view = frame.view;
-  Eigen::Matrix3d intrinsics;
+  Matrix3 intrinsics;
   intrinsics << frame.fx.of(width, height), 0.0, frame.cx.of(width, height) - 0.5, 0.0, frame.fy.of(width, height),
       frame.cy.of(width, height) - 0.5, 0.0, 0.0, 1.0;
-  view.projection = intrinsics * frame.pose;
-  if (!view.projection.allFinite())
-  {
-    throw InvalidInput(view.where + ": its matrix is too large to be finite");
-  }
+  view.projection = composedProjection(intrinsics, frame.pose.leftCols<3>(), frame.pose.col(3), view.where);
   view.lens = frame.lens;
   if (view.lens)
   {

@@ -204,6 +204,11 @@ TEST(ColmapCameras, FilesAreRecognised)
   EXPECT_TRUE(isColmapFile(folder.path() / "cameras.bin"));
   EXPECT_FALSE(isColmapFile(folder.write("points3D.txt", "")));
   EXPECT_EQ(colmapModelIn(folder.path()), folder.path() / "images.txt");
+  folder.write("cameras.txt", "\n# mine\na.png 1 0 0 0 0 1 0 0 0 0 1 0\n");
+  EXPECT_FALSE(isColmapFile(list)) << "beside other images too";
+  EXPECT_TRUE(colmapModelIn(folder.path()).empty());
+  folder.write("cameras.txt", "\n# mine\n1 PINHOLE 640 480 700 700 320 240\n");
+  EXPECT_TRUE(isColmapFile(list));
 }
 
 TEST(ColmapCameras, WhatIsWrongInTextIsNamed)
