@@ -68,7 +68,10 @@ def one(options):
 def measure(*arguments):
     """What one() says in a process of its own."""
     command = [sys.executable, __file__, *sys.argv[1:], *map(str, arguments)]
-    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout.splitlines()[-1])
+    run = subprocess.run(command, stdout=subprocess.PIPE)
+    if run.returncode != 0:
+        sys.exit("growth.py: %s made no octree or surface; what is wrong is said above" % " ".join(map(str, arguments)))
+    return json.loads(run.stdout.splitlines()[-1])
 
 
 def scaling(options):
