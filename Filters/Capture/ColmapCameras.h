@@ -24,7 +24,7 @@ namespace silhouette
 /** The file of the model in `folder` that names the images, `images.bin` before `images.txt`; empty where no pair of files is there. */
 std::filesystem::path colmapModelIn(const std::filesystem::path& folder);
 
-/** Is this one of a model's four files, by its name, and of those that are text by the other of its pair or its first line? A P list that is called so is none. */
+/** Is this one of a model's four files, by its name, and of those that are text by the pair, or its first line? Where `cameras.txt` is a P list there is no pair. */
 bool isColmapFile(const std::filesystem::path& file);
 
 /**

@@ -2,7 +2,6 @@
 #include "LatticeLabels.h"
 
 #include "BlockBits.h"
-#include "CodeCursor.h"
 #include "CornerVotes.h"
 #include "FirstTouch.h"
 #include "IndicesWhere.h"

@@ -48,6 +48,15 @@ class Growth(unittest.TestCase):
         self.assertIn("goes with one depth", done.stderr)
         self.assertEqual(done.stdout, "")
 
+    def test_a_run_that_fails_is_said_without_a_traceback(self):
+        with tempfile.TemporaryDirectory() as nothing:
+            done = subprocess.run([sys.executable, str(HERE / "growth.py"), nothing, "--depths", "4"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(nothing, done.stderr, "the reader's message")
+        self.assertEqual(done.stderr.splitlines()[-1], "growth.py: --depth 4 made no octree or surface; what is wrong is said above")
+        self.assertEqual(done.stdout, "")
+
 
 if __name__ == "__main__":
     unittest.main()
