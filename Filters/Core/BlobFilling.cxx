@@ -27,8 +27,8 @@ struct Region
   std::vector<PointCube> cubes; ///< ascending
 };
 
-/** The corners, ascending, of the blocks of cubes from which a step along an axis leads out of all cubes: what is near cubes but in none is near one of these. */
-std::vector<std::uint64_t> outermost(const std::vector<PointCube>& cubes)
+/** The blocks of cubes from which a step along an axis leads out of all cubes: what is near cubes but in none is near one of these. */
+std::vector<BlockWord> outermost(const std::vector<PointCube>& cubes)
 {
   const auto isInCube = [&](const PointCube& box)
   {
@@ -47,21 +47,17 @@ std::vector<std::uint64_t> outermost(const std::vector<PointCube>& cubes)
     forBlocksBeside(cube, isInCube, addBlock);
   }
   sortUnique(blocks);
-  std::vector<std::uint64_t> corners;
-  corners.reserve(64 * blocks.size());
+  std::vector<BlockWord> words;
   for (const std::uint64_t block : blocks)
   {
-    for (std::uint64_t n = 0; n < 64; ++n)
-    {
-      corners.push_back(64 * block + n);
-    }
+    words.push_back({ block, ~std::uint64_t(0) });
   }
-  return corners;
+  return words;
 }
 
 Region regionOf(const Blobs& blobs, int steps, Execution& execution)
 {
-  PointBlocks near(united(blobs.corners, outermost(blobs.cubes)), execution);
+  PointBlocks near(unitedWords(blobs.words, outermost(blobs.cubes)));
   for (int axis = 0; axis < 3; ++axis)
   {
     for (int step = 0; step < steps; ++step)
@@ -370,7 +366,7 @@ BlobFilling fillBlobs(const LatticeViews& fine, const std::vector<Blobs>& blobs,
   filling.pixels.assign(blobs.size(), 0);
   for (std::size_t view = 0; view < blobs.size(); ++view)
   {
-    if (!blobs[view].corners.empty() || !blobs[view].cubes.empty())
+    if (!blobs[view].empty())
     {
       const Region region = regionOf(blobs[view], reach.steps, execution);
       fillView(fine, region, reach.halvings, int(view), repaired[view].silhouette, filling, execution);

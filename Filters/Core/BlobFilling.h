@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "BlockWords.h"
 #include "PointCubes.h"
 #include "PreparedViews.h"
 
@@ -13,11 +14,13 @@
 namespace silhouette
 {
 
-/** Corners that a view alone cuts out of the object; both ascending, no corner twice. */
+/** Corners that a view alone cuts out of the object; both ascending, no block in both. */
 struct Blobs
 {
-  std::vector<std::uint64_t> corners; ///< Morton codes
+  std::vector<BlockWord> words; ///< of corners, of a block one
   std::vector<PointCube> cubes;
+
+  bool empty() const { return this->words.empty() && this->cubes.empty(); }
 };
 
 struct BlobFilling

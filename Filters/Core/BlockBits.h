@@ -135,6 +135,22 @@ inline bool touchesBorder(const Lattice& lattice, const LatticePoint& lowest)
   return lattice.onBorder(lowest) || lattice.onBorder(lowest + LatticePoint{ BlockSide - 1, BlockSide - 1, BlockSide - 1 });
 }
 
+/** The points of a block that are the lattice's. */
+inline std::uint64_t withinLattice(const Lattice& lattice, std::uint64_t block)
+{
+  const LatticePoint lowest = fromMorton(64 * block);
+  if (isOfLattice(lowest + LatticePoint{ BlockSide - 1, BlockSide - 1, BlockSide - 1 }, lattice.cells()))
+  {
+    return ~std::uint64_t(0);
+  }
+  std::uint64_t within = 0;
+  for (std::uint64_t n = 0; n < 64; ++n)
+  {
+    within |= std::uint64_t(isOfLattice(fromMorton(64 * block + n), lattice.cells())) << n;
+  }
+  return within;
+}
+
 /** The points of a block that lie within the root cube and not on its border. */
 inline std::uint64_t withinBorder(const Lattice& lattice, std::uint64_t block)
 {

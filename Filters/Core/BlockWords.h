@@ -7,6 +7,7 @@
 #include "Bits.h"
 #include "Execution.h"
 #include "IndicesWhere.h"
+#include "LargePages.h"
 #include "RadixSort.h"
 
 #include <cstddef>
@@ -23,6 +24,67 @@ struct BlockWord
   std::uint64_t block;
   std::uint64_t bits;
 };
+
+/** The words of a list of codes, ascending. */
+inline std::vector<BlockWord> wordsOf(const std::vector<std::uint64_t>& codes)
+{
+  std::vector<BlockWord> words;
+  for (const std::uint64_t code : codes)
+  {
+    if (words.empty() || words.back().block != code >> 6)
+    {
+      words.push_back({ code >> 6, 0 });
+    }
+    words.back().bits |= std::uint64_t(1) << (code & 63);
+  }
+  return words;
+}
+
+/** Call `work(code)` for each of a word's, ascending. */
+template <typename Work> void forCodes(const BlockWord& word, const Work& work)
+{
+  for (std::uint64_t left = word.bits; left != 0; left &= left - 1)
+  {
+    work(64 * word.block + std::uint64_t(lowestBit(left)));
+  }
+}
+
+/** The codes of words, ascending as these. */
+inline std::vector<std::uint64_t> codesOf(const std::vector<BlockWord>& words)
+{
+  std::vector<std::uint64_t> codes;
+  for (const BlockWord& word : words)
+  {
+    forCodes(word, [&](std::uint64_t code) { codes.push_back(code); });
+  }
+  return codes;
+}
+
+/** The words of two lists, ascending both, of a block one. */
+inline std::vector<BlockWord> unitedWords(const std::vector<BlockWord>& a, const std::vector<BlockWord>& b)
+{
+  std::vector<BlockWord> both;
+  both.reserve(a.size() + b.size());
+  const auto add = [&](const BlockWord& word)
+  {
+    if (both.empty() || both.back().block != word.block)
+    {
+      both.push_back({ word.block, 0 });
+    }
+    both.back().bits |= word.bits;
+  };
+  auto other = b.begin();
+  for (const BlockWord& word : a)
+  {
+    for (; other != b.end() && other->block < word.block; ++other)
+    {
+      add(*other);
+    }
+    add(word);
+  }
+  std::for_each(other, b.end(), add);
+  return both;
+}
 
 /** Does another block begin with the n-th of a list of codes, ascending? */
 inline bool beginsBlock(const std::vector<std::uint64_t>& codes, std::size_t n)
@@ -49,7 +111,7 @@ inline std::vector<std::size_t> blockStarts(const std::vector<std::uint64_t>& co
 /** The words of a list of codes, ascending; `starts` are its blockStarts(). */
 inline std::vector<BlockWord> blockWords(const std::vector<std::uint64_t>& codes, const std::vector<std::size_t>& starts, Execution& execution)
 {
-  std::vector<BlockWord> words(starts.size() - 1);
+  auto words = largeVector<BlockWord>(starts.size() - 1);
   execution.forRanges(words.size(), 1024,
     [&](std::size_t first, std::size_t last)
     {
@@ -75,7 +137,7 @@ std::vector<BlockWord> joinParts(std::vector<Part>& parts, int blockBits, const 
   radixSort(parts, blockBits, [](const Part& part) { return part.word.block; }, execution);
   auto starts = selected(
     parts.size(), [&](std::size_t n) { return n == 0 || parts[n - 1].word.block != parts[n].word.block; }, [](std::size_t n) { return n; }, execution);
-  std::vector<BlockWord> words(starts.size());
+  auto words = largeVector<BlockWord>(starts.size());
   starts.push_back(parts.size());
   execution.forRanges(words.size(), 1024,
     [&](std::size_t first, std::size_t last)
@@ -99,7 +161,7 @@ std::vector<BlockWord> joinParts(std::vector<Part>& parts, int blockBits, const 
 template <typename Part, typename ForParts>
 std::vector<Part> collectParts(std::size_t count, const ForParts& forParts, Execution& execution)
 {
-  std::vector<std::size_t> ends(count + 1, 0);
+  auto ends = largeVector<std::size_t>(count + 1);
   const auto forItems = [&](const auto& work)
   {
     execution.forRanges(count, 1024,
@@ -113,7 +175,7 @@ std::vector<Part> collectParts(std::size_t count, const ForParts& forParts, Exec
   };
   forItems([&](std::size_t n) { forParts(n, [&](const Part&) { ++ends[n + 1]; }); });
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<Part> parts(ends.back());
+  auto parts = largeVector<Part>(ends.back());
   forItems(
     [&](std::size_t n)
     {

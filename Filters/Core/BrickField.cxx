@@ -4,6 +4,7 @@
 #include "Bits.h"
 #include "BlockBits.h"
 #include "FirstTouch.h"
+#include "LargePages.h"
 #include "LatticeSurface.h"
 
 #include <algorithm>
@@ -252,8 +253,8 @@ std::vector<std::uint64_t> BrickField::mixedCells(Execution& execution) const
 Mesh BrickField::contourMesh(Execution& execution) const
 {
   const CornerShell shell = makeCornerShell(this->mixedCells(execution), execution);
-  std::vector<float> value(shell.corners.size());
-  std::vector<std::uint8_t> inside(shell.corners.size());
+  auto value = largeVector<float>(shell.corners.size());
+  auto inside = largeVector<std::uint8_t>(shell.corners.size());
   execution.forRanges(value.size(), 1024,
     [&](std::size_t first, std::size_t last)
     {
@@ -266,7 +267,7 @@ Mesh BrickField::contourMesh(Execution& execution) const
   const LatticeSurface surface = contour(shell, inside, execution);
   Mesh mesh;
   mesh.triangles = surface.triangles;
-  mesh.points.resize(surface.edges.size());
+  resizeLarge(mesh.points, surface.edges.size());
   execution.forRanges(mesh.points.size(), 1024,
     [&](std::size_t first, std::size_t last)
     {

@@ -4,6 +4,7 @@
 #include "Bits.h"
 #include "ChildNumbering.h"
 #include "FirstTouch.h"
+#include "LargePages.h"
 #include "LoneCarvers.h"
 #include "OctantTest.h"
 
@@ -195,10 +196,10 @@ Front gather(std::vector<Part>& parts, Execution& execution)
     views[p + 1] = views[p] + parts[p].front.views.size();
   }
   Front front;
-  front.code.resize(octants.back());
-  front.inheritance.resize(octants.back());
-  front.viewEnd.resize(octants.back());
-  front.views.resize(views.back());
+  resizeLarge(front.code, octants.back());
+  resizeLarge(front.inheritance, octants.back());
+  resizeLarge(front.viewEnd, octants.back());
+  resizeLarge(front.views, views.back());
   execution.forRanges(parts.size(), 1,
     [&](std::size_t first, std::size_t last)
     {

@@ -2,6 +2,7 @@
 #include "CellSafety.h"
 
 #include "FirstTouch.h"
+#include "LargePages.h"
 #include "TriangleIntersection.h"
 
 #include <algorithm>
@@ -104,7 +105,7 @@ Mesh placePoints(const Lattice& lattice, const CornerShell& shell, const Lattice
 std::uint64_t removeCellIntersections(const Lattice& lattice, const CornerShell& shell,
   const LatticeSurface& surface, bool singlePrecision, Mesh& mesh, Execution& execution)
 {
-  std::vector<std::uint8_t> bad(shell.cells.size(), 0);
+  auto bad = largeVector<std::uint8_t>(shell.cells.size());
   execution.forRanges(bad.size(), 1024,
     [&](std::size_t first, std::size_t last)
     {

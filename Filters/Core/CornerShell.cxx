@@ -7,6 +7,7 @@
 #include "CodeCursor.h"
 #include "FirstTouch.h"
 #include "IndicesWhere.h"
+#include "LargePages.h"
 #include "NumberedCount.h"
 
 #include <algorithm>
@@ -126,10 +127,10 @@ private:
     std::vector<Share> shares = collectParts<Share>(this->Cells.size(), forShares, this->Exec);
     // A step on any axis may carry into that axis's next bit, three above, in blocks before the last one too.
     const int cellBits = shares.empty() ? 0 : highestBit(this->Cells.back().block | 1) + 1;
-    this->Target.resize(8 * this->Cells.size());
+    resizeLarge(this->Target, 8 * this->Cells.size());
     this->Corners = joinParts(
       shares, cellBits + 3, [&](const Share& share, std::size_t b) { this->Target[share.source] = std::uint32_t(b); }, this->Exec);
-    this->FirstCorner.resize(this->Corners.size() + 1, 0);
+    resizeLarge(this->FirstCorner, this->Corners.size() + 1);
     std::transform(this->Corners.begin(), this->Corners.end(), this->FirstCorner.begin() + 1, [](const BlockWord& word) { return std::uint32_t(countBits(word.bits)); });
     numberedCount(std::accumulate(this->FirstCorner.begin(), this->FirstCorner.end(), std::size_t(0)), "corners of cells");
     std::partial_sum(this->FirstCorner.begin(), this->FirstCorner.end(), this->FirstCorner.begin());
@@ -152,7 +153,7 @@ private:
   void nameCellCorners()
   {
     static const CornerPlaces places;
-    this->Shell.cellCorners.resize(this->Shell.cells.size());
+    resizeLarge(this->Shell.cellCorners, this->Shell.cells.size());
     this->forBlocks(this->Cells.size(),
       [&](std::size_t b)
       {
@@ -258,7 +259,7 @@ CornerShell withCells(const CornerShell& shell, const std::vector<std::uint64_t>
     return makeCornerShell(united(shell.cells, cells), execution);
   }
   const CornerShell added = makeCornerShell(std::move(cells), execution);
-  std::vector<std::ptrdiff_t> known(added.corners.size()); // among the shell's
+  auto known = largeVector<std::ptrdiff_t>(added.corners.size()); // among the shell's
   execution.forRanges(known.size(), 1024,
     [&](std::size_t first, std::size_t last)
     {
@@ -268,7 +269,7 @@ CornerShell withCells(const CornerShell& shell, const std::vector<std::uint64_t>
     });
   const auto corners = selected(known.size(), [&](std::size_t n) { return known[n] < 0; }, [&](std::size_t n) { return added.corners[n]; }, execution);
   Merged mergedCorners(shell.corners, corners, execution), mergedCells(shell.cells, added.cells, execution);
-  std::vector<std::uint32_t> places(known.size()); // of the added cells' corners
+  auto places = largeVector<std::uint32_t>(known.size()); // of the added cells' corners
   auto next = mergedCorners.placesOfFew.begin();
   std::transform(known.begin(), known.end(), places.begin(),
     [&](std::ptrdiff_t own) { return own < 0 ? *next++ : mergedCorners.placesOfMany[std::size_t(own)]; });
@@ -276,7 +277,7 @@ CornerShell withCells(const CornerShell& shell, const std::vector<std::uint64_t>
   CornerShell wider;
   wider.corners = std::move(mergedCorners.codes);
   wider.cells = std::move(mergedCells.codes);
-  wider.cellCorners.resize(wider.cells.size());
+  resizeLarge(wider.cellCorners, wider.cells.size());
   const auto rename = [&](const std::vector<CellCorners>& from, const std::vector<std::uint32_t>& cellPlaces, const std::vector<std::uint32_t>& cornerPlaces)
   {
     execution.forRanges(from.size(), 4096,

@@ -2,6 +2,7 @@
 #include "CornerVotes.h"
 
 #include "FirstTouch.h"
+#include "LargePages.h"
 #include "LeastNumbers.h"
 
 #include <algorithm>
@@ -74,7 +75,7 @@ std::vector<std::uint16_t> cornerVotes(
         }
       }
     });
-  std::vector<std::uint16_t> votes(shell.corners.size());
+  auto votes = largeVector<std::uint16_t>(shell.corners.size());
   constexpr std::size_t Steps = 16;
   for (std::size_t step = 0; step < Steps; ++step)
   {

@@ -2,6 +2,7 @@
 #include "CrossingPlacer.h"
 
 #include "CodeCursor.h"
+#include "LargePages.h"
 
 #include <algorithm>
 
@@ -36,7 +37,7 @@ CrossingPlacer::CrossingPlacer(const LatticeLabels& labels, const SurfaceCrossin
 
 std::vector<double> CrossingPlacer::fractions(const CornerShell& shell, const LatticeSurface& contoured, Execution& execution) const
 {
-  std::vector<double> fractions(contoured.edges.size());
+  auto fractions = largeVector<double>(contoured.edges.size());
   const std::vector<std::uint8_t> isAdded = this->addedCorners(shell);
   execution.forRanges(fractions.size(), 256,
     [&](std::size_t first, std::size_t last)
@@ -61,7 +62,7 @@ std::vector<double> CrossingPlacer::fractions(const CornerShell& shell, const La
 /** A 1 for each corner of the shell that was added. */
 std::vector<std::uint8_t> CrossingPlacer::addedCorners(const CornerShell& shell) const
 {
-  std::vector<std::uint8_t> isAdded(shell.corners.size(), 0);
+  auto isAdded = largeVector<std::uint8_t>(shell.corners.size());
   CodeCursor corners(shell.corners);
   for (const std::uint64_t corner : this->Added)
   {

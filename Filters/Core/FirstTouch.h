@@ -6,6 +6,7 @@
 #pragma once
 
 #include "Execution.h"
+#include "LargePages.h"
 
 #include <vector>
 
@@ -17,7 +18,7 @@ template <typename Value>
 void resizeSideBySide(std::vector<Value>& values, std::size_t n, Execution& execution)
 {
   constexpr std::size_t Page = 4096;
-  values.reserve(n);
+  reserveLarge(values, n);
   auto* bytes = reinterpret_cast<volatile unsigned char*>(values.data());
   execution.forRanges(n * sizeof(Value) / Page, 64,
     [&](std::size_t first, std::size_t last)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Execution.h"
+#include "LargePages.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -41,7 +42,7 @@ auto selected(std::size_t count, const IsWanted& isWanted, const Make& make, Exe
       }
     });
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<decltype(make(std::size_t()))> some(ends.back());
+  auto some = largeVector<decltype(make(std::size_t()))>(ends.back());
   execution.forRanges(ranges, 1,
     [&](std::size_t first, std::size_t last)
     {
@@ -54,6 +55,27 @@ auto selected(std::size_t count, const IsWanted& isWanted, const Make& make, Exe
   return some;
 }
 
+/** Lists one after another. */
+template <typename Item>
+std::vector<Item> concatenated(const std::vector<std::vector<Item>>& lists, Execution& execution)
+{
+  std::vector<std::size_t> ends(lists.size() + 1, 0);
+  for (std::size_t n = 0; n < lists.size(); ++n)
+  {
+    ends[n + 1] = ends[n] + lists[n].size();
+  }
+  auto all = largeVector<Item>(ends.back());
+  execution.forRanges(lists.size(), 1,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t n = first; n < last; ++n)
+      {
+        std::copy(lists[n].begin(), lists[n].end(), all.begin() + std::ptrdiff_t(ends[n]));
+      }
+    });
+  return all;
+}
+
 /**
  * The numbers n below `count` for which a test holds, ascending. `grain` as forRanges() has it; `makeTest()` makes the test of each range, `test(n)`, which
  * may remember things from one n to the next.
@@ -61,7 +83,7 @@ auto selected(std::size_t count, const IsWanted& isWanted, const Make& make, Exe
 template <typename MakeTest>
 std::vector<std::int32_t> indicesWhereTests(std::size_t count, std::size_t grain, Execution& execution, const MakeTest& makeTest)
 {
-  std::vector<std::uint8_t> holds(count);
+  auto holds = largeVector<std::uint8_t>(count);
   execution.forRanges(count, grain,
     [&](std::size_t first, std::size_t last)
     {

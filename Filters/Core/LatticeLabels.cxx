@@ -5,6 +5,7 @@
 #include "CornerVotes.h"
 #include "FirstTouch.h"
 #include "IndicesWhere.h"
+#include "LargePages.h"
 #include "MarchingCubesTable.h"
 
 #include <Eigen/Geometry>
@@ -195,7 +196,7 @@ void LatticeLabels::labelByVotes(const std::vector<std::uint16_t>& votes, Execut
   // Mostly the shell has no other cells than the octree's intersection octants, all of which it has.
   if (this->octree().count(OctantState::Intersection, this->octree().lattice.depth) == this->Shell.cells.size())
   {
-    this->Survivor.assign(this->Shell.cells.size(), 1);
+    this->Survivor = largeVector<std::uint8_t>(this->Shell.cells.size(), 1);
   }
   else
   {
@@ -313,7 +314,7 @@ void LatticeLabels::spread(const SurfaceCrossings& crossings)
 
 void LatticeLabels::setSurvivors(const std::vector<std::uint64_t>& cells, Execution& execution)
 {
-  this->Survivor.assign(this->Shell.cells.size(), 0);
+  this->Survivor = largeVector<std::uint8_t>(this->Shell.cells.size());
   execution.forRanges(this->Shell.cells.size(), 4096,
     [&](std::size_t first, std::size_t last)
     {
@@ -438,7 +439,7 @@ std::uint64_t LatticeLabels::insideOfBlock(std::uint64_t block) const
 
 std::vector<std::uint64_t> LatticeLabels::insideOfBlocks(const std::vector<std::uint64_t>& blocks, Execution& execution) const
 {
-  std::vector<std::uint64_t> inside(blocks.size());
+  auto inside = largeVector<std::uint64_t>(blocks.size());
   const LabelBlocks& known = this->blocks(execution);
   execution.forRanges(blocks.size(), 256,
     [&](std::size_t first, std::size_t last)

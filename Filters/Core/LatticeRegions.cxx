@@ -4,6 +4,7 @@
 #include "Bits.h"
 #include "BlockBits.h"
 #include "LabelCache.h"
+#include "LargePages.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -248,7 +249,7 @@ std::vector<std::uint64_t> unsupportedPoints(const LatticeLabels& labels, const 
 BlockRegions connectSurvivors(const Octree& octree, Execution& execution)
 {
   BlockIndex blocks(subdividedBlocks(octree));
-  std::vector<std::uint64_t> cells(blocks.size());
+  auto cells = largeVector<std::uint64_t>(blocks.size());
   execution.forRanges(blocks.size(), 512,
     [&](std::size_t first, std::size_t last)
     {

@@ -2,6 +2,7 @@
 #include "LatticeSurface.h"
 
 #include "FirstTouch.h"
+#include "LargePages.h"
 #include "LeastNumbers.h"
 #include "MarchingCubesTable.h"
 #include "NumberedCount.h"
@@ -62,8 +63,8 @@ private:
   void findEdges()
   {
     const auto& table = marchingCubesTable();
-    this->Surface.cellCase.resize(this->Shell.cells.size());
-    this->Surface.cellEnd.resize(this->Shell.cells.size());
+    resizeLarge(this->Surface.cellCase, this->Shell.cells.size());
+    resizeLarge(this->Surface.cellEnd, this->Shell.cells.size());
     this->forEach(this->Shell.cells.size(),
       [&](std::size_t cell)
       {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Execution.h"
+#include "LargePages.h"
 
 #include <atomic>
 #include <cstdint>
@@ -21,6 +22,7 @@ public:
   LeastNumbers(std::size_t size, Execution& execution)
     : Complements(new std::atomic<std::uint32_t>[size])
   {
+    adviseLargePages(this->Complements.get(), size * sizeof(std::atomic<std::uint32_t>));
     execution.forRanges(size, 16384,
       [&](std::size_t first, std::size_t last)
       {

@@ -5,6 +5,7 @@
 #include "BoxTree.h"
 #include "EdgePairing.h"
 #include "Error.h"
+#include "LargePages.h"
 #include "MeshCheck.h"
 #include "SilhouetteRendering.h"
 #include "Vectorised.h"
@@ -255,7 +256,7 @@ SILHOUETTE_VECTORISED std::uint64_t camerasFaced(const Facing& facing, double x,
 /** The cameras that each triangle faces; after the last none. */
 std::vector<std::uint64_t> facedByTriangles(const Mesh& mesh, const Facing& facing, Execution& execution)
 {
-  std::vector<std::uint64_t> faced(mesh.triangles.size() + 1, 0);
+  auto faced = largeVector<std::uint64_t>(mesh.triangles.size() + 1);
   execution.forRanges(mesh.triangles.size(), Grain,
     [&](std::size_t first, std::size_t last)
     {

@@ -11,22 +11,6 @@ namespace silhouette
 namespace
 {
 
-/** The points of a block that are the lattice's. */
-std::uint64_t ofLattice(const Lattice& lattice, std::uint64_t block)
-{
-  const LatticePoint low = fromMorton(64 * block);
-  if (isOfLattice(low + LatticePoint{ BlockSide - 1, BlockSide - 1, BlockSide - 1 }, lattice.cells()))
-  {
-    return ~std::uint64_t(0);
-  }
-  std::uint64_t within = 0;
-  for (std::uint64_t n = 0; n < 64; ++n)
-  {
-    within |= std::uint64_t(isOfLattice(fromMorton(64 * block + n), lattice.cells())) << n;
-  }
-  return within;
-}
-
 struct Part
 {
   BlockWord word;
@@ -65,10 +49,7 @@ std::vector<std::uint64_t> PointBlocks::points(Execution& execution) const
 {
   const auto forPoints = [&](std::size_t n, const auto& add)
   {
-    for (std::uint64_t left = this->Blocks[n].bits; left != 0; left &= left - 1)
-    {
-      add(64 * this->Blocks[n].block + std::uint64_t(lowestBit(left)));
-    }
+    forCodes(this->Blocks[n], add);
   };
   return collectParts<std::uint64_t>(this->Blocks.size(), forPoints, execution);
 }
@@ -118,7 +99,7 @@ PointBlocks PointBlocks::beside(const Lattice& lattice, Execution& execution) co
     {
       for (std::size_t b = first; b < last; ++b)
       {
-        result.Blocks[b].bits &= ofLattice(lattice, result.Blocks[b].block);
+        result.Blocks[b].bits &= withinLattice(lattice, result.Blocks[b].block);
       }
     });
   result.dropEmpty(execution);

@@ -10,6 +10,7 @@
 #include "Lattice.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace silhouette
@@ -22,6 +23,11 @@ public:
   PointBlocks() = default;
   /** `points`: Morton codes, ascending. */
   PointBlocks(const std::vector<std::uint64_t>& points, Execution& execution);
+  /** `words`: ascending, of a block one, none without points. */
+  explicit PointBlocks(std::vector<BlockWord> words)
+    : Blocks(std::move(words))
+  {
+  }
 
   bool empty() const { return this->Blocks.empty(); }
   /** The points by blocks, ascending, none without points. */

@@ -20,21 +20,14 @@ struct Parts
   std::vector<std::uint32_t> first{ 0 }; ///< part of each block, and the end
   std::vector<std::uint64_t> parts;     ///< points, a bit each
 
-  Parts(const std::vector<std::uint64_t>& codes, Steps steps)
+  Parts(const std::vector<BlockWord>& words, Steps steps)
   {
     std::vector<std::uint64_t> found;
-    for (const std::uint64_t code : codes)
+    for (const BlockWord& word : words)
     {
-      if (found.empty() || found.back() != code >> 6)
-      {
-        found.push_back(code >> 6);
-        this->points.push_back(0);
-      }
-      this->points.back() |= std::uint64_t(1) << (code & 63);
-    }
-    for (std::uint64_t left : this->points)
-    {
-      while (left != 0)
+      found.push_back(word.block);
+      this->points.push_back(word.bits);
+      for (std::uint64_t left = word.bits; left != 0;)
       {
         this->parts.push_back(partOfLowest(left, steps));
         left &= ~this->parts.back();
@@ -42,16 +35,6 @@ struct Parts
       this->first.push_back(std::uint32_t(this->parts.size()));
     }
     this->blocks = BlockIndex(std::move(found));
-  }
-
-  std::uint32_t partOf(std::size_t block, int bit) const
-  {
-    std::uint32_t part = this->first[block];
-    while ((this->parts[part] >> bit & 1) == 0)
-    {
-      ++part;
-    }
-    return part;
   }
 };
 
@@ -128,9 +111,9 @@ void joinCubes(const Parts& all, const std::vector<PointCube>& cubes, Steps step
 
 } // namespace
 
-std::vector<PointComponent> pointComponents(const std::vector<std::uint64_t>& points, const std::vector<PointCube>& cubes, Steps steps, std::size_t least)
+std::vector<PointComponent> pointComponents(const std::vector<BlockWord>& words, const std::vector<PointCube>& cubes, Steps steps, std::size_t least)
 {
-  const Parts all(points, steps);
+  const Parts all(words, steps);
   UnionFind sets(all.parts.size() + cubes.size());
   joinBlocks(all, steps, sets);
   joinCubes(all, cubes, steps, sets);
@@ -154,12 +137,16 @@ std::vector<PointComponent> pointComponents(const std::vector<std::uint64_t>& po
   };
   for (std::size_t block = 0; block < all.blocks.size(); ++block)
   {
-    for (std::uint64_t left = all.points[block]; left != 0; left &= left - 1)
+    for (std::uint32_t part = all.first[block]; part < all.first[block + 1]; ++part)
     {
-      const int bit = lowestBit(left);
-      if (PointComponent* component = componentOf(all.partOf(block, bit)))
+      PointComponent* component = componentOf(part);
+      if (component != nullptr && (component->words.empty() || component->words.back().block != all.blocks[block]))
       {
-        component->points.push_back(64 * all.blocks[block] + std::uint64_t(bit));
+        component->words.push_back({ all.blocks[block], 0 });
+      }
+      if (component != nullptr)
+      {
+        component->words.back().bits |= all.parts[part];
       }
     }
   }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Execution.h"
+#include "LargePages.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -28,6 +29,7 @@ void radixSort(std::vector<Item>& items, int keyBits, const Key& key, Execution&
   const std::size_t digits = std::size_t(1) << digitBits;
   const std::size_t ranges = std::clamp(items.size() / RangeSize, std::size_t(1), MostRanges);
   const std::unique_ptr<Item[]> others(new Item[items.size()]); // not written to before it is used
+  adviseLargePages(others.get(), items.size() * sizeof(Item));
   std::vector<std::size_t> next(ranges * digits); // of each range and digit
   Item *from = items.data(), *to = others.get();
   const auto forItems = [&](const auto& work)

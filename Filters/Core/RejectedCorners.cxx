@@ -22,21 +22,60 @@ namespace silhouette
 namespace
 {
 
-/** Those of `corners` that one view alone rejects. */
-std::vector<Rejected> rejectedOf(const LatticeViews& views, const std::vector<std::uint64_t>& corners, Execution& execution)
+/**
+ * Those of some points that one view alone rejects, by block, then by view. `makeDissenter()` makes what is asked about a run of points, `dissenter(p)`: that view, or
+ * -1.
+ */
+template <typename MakeDissenter>
+std::vector<RejectedWord> rejectedBy(const std::vector<BlockWord>& asked, const MakeDissenter& makeDissenter, Execution& execution)
 {
-  std::vector<std::int32_t> dissenter(corners.size());
-  execution.forRanges(corners.size(), 1024,
+  constexpr std::size_t RunSize = 128; // blocks
+  std::vector<std::vector<RejectedWord>> ofRuns((asked.size() + RunSize - 1) / RunSize);
+  const auto askRun = [&](std::size_t run)
+  {
+    auto dissenter = makeDissenter();
+    std::vector<RejectedWord>& found = ofRuns[run];
+    for (std::size_t b = run * RunSize; b < std::min((run + 1) * RunSize, asked.size()); ++b)
+    {
+      const std::size_t first = found.size(); // of this block
+      const auto ask = [&](std::uint64_t code)
+      {
+        const int view = dissenter(fromMorton(code));
+        if (view < 0)
+        {
+          return;
+        }
+        std::size_t own = first;
+        while (own < found.size() && found[own].view != view)
+        {
+          ++own;
+        }
+        if (own == found.size())
+        {
+          found.push_back({ { asked[b].block, 0 }, view });
+        }
+        found[own].corners.bits |= std::uint64_t(1) << (code & 63);
+      };
+      forCodes(asked[b], ask);
+      std::sort(found.begin() + std::ptrdiff_t(first), found.end(), [](const RejectedWord& one, const RejectedWord& other) { return one.view < other.view; });
+    }
+  };
+  execution.forRanges(ofRuns.size(), 1,
                       [&](std::size_t first, std::size_t last)
                       {
-                        OnlyDissenter only(views);
-                        for (std::size_t i = first; i < last; ++i)
+                        for (std::size_t run = first; run < last; ++run)
                         {
-                          dissenter[i] = only.at(fromMorton(corners[i]));
+                          askRun(run);
                         }
                       });
-  return selected(
-    corners.size(), [&](std::size_t i) { return dissenter[i] >= 0; }, [&](std::size_t i) { return Rejected{corners[i], dissenter[i]}; }, execution);
+  return concatenated(ofRuns, execution);
+}
+
+/** The same, of any points. */
+std::vector<RejectedWord> rejectedOf(const LatticeViews& views, const std::vector<BlockWord>& asked, Execution& execution)
+{
+  const auto makeDissenter = [&] { return [only = OnlyDissenter(views)](const LatticePoint& p) mutable { return only.at(p); }; };
+  return rejectedBy(asked, makeDissenter, execution);
 }
 
 /** Number of views that never abstain within the root cube. */
@@ -59,37 +98,25 @@ int viewsThatSpeak(const LatticeViews& views)
   return count;
 }
 
-/** The same of corners of the octree's surviving octants, each of which one of its own views calls background. */
-std::vector<Rejected> rejectedOnce(const Octree& octree, const LatticeViews& views, const std::vector<std::uint64_t>& corners, Execution& execution)
+/** The same, of corners of the octree's surviving octants, each of which one of its own views calls background. */
+std::vector<RejectedWord> rejectedOnce(const Octree& octree, const LatticeViews& views, const std::vector<BlockWord>& asked, Execution& execution)
 {
   const LeafViews undecided(octree, views);
   // Then half of them call such a corner object.
   if (!undecided.isKnown() || 2 * (viewsThatSpeak(views) - 1) < views.size())
   {
-    return rejectedOf(views, corners, execution);
+    return rejectedOf(views, asked, execution);
   }
-  std::vector<Rejected> rejected(corners.size());
-  execution.forRanges(corners.size(), 1024,
-                      [&](std::size_t first, std::size_t last)
-                      {
-                        OctantCursor octants(octree);
-                        for (std::size_t i = first; i < last; ++i)
-                        {
-                          const LatticePoint p = fromMorton(corners[i]);
-                          rejected[i].corner = corners[i];
-                          undecided.around(p, octants)
-                              .forEach(
-                                  [&](int view)
-                                  {
-                                    if (rejected[i].view < 0 && views.vote(view, p) == Vote::Background)
-                                    {
-                                      rejected[i].view = view;
-                                    }
-                                  });
-                        }
-                      });
-  return selected(
-    rejected.size(), [&](std::size_t i) { return rejected[i].view >= 0; }, [&](std::size_t i) { return rejected[i]; }, execution);
+  const auto makeDissenter = [&]
+  {
+    return [&, octants = OctantCursor(octree)](const LatticePoint& p) mutable
+    {
+      int only = -1;
+      undecided.around(p, octants).forEach([&](int view) { only = only < 0 && views.vote(view, p) == Vote::Background ? view : only; });
+      return only;
+    };
+  };
+  return rejectedBy(asked, makeDissenter, execution);
 }
 
 /** The shell's corners that one view may alone reject: all where the octree was carved from other views; else `votes` are found as well. */
@@ -105,19 +132,49 @@ std::vector<std::uint64_t> onceDisputed(const Octree& octree, const LatticeViews
     votes->size(), [&](std::size_t c) { return int((*votes)[c]) == views.size() - 1; }, [&](std::size_t c) { return shell.corners[c]; }, execution);
 }
 
-/** Sorted by view, then by code. */
-std::vector<Rejected> byView(std::vector<Rejected> rejected, const LatticeViews& views, Execution& execution)
+/** Sorted by view, then by block, of both one. */
+std::vector<RejectedWord> byView(std::vector<RejectedWord> words, const LatticeViews& views, Execution& execution)
 {
-  radixSort(rejected, 3 * (views.lattice().depth + 1), [](const Rejected& one) { return one.corner; }, execution);
-  radixSort(rejected, highestBit(std::uint64_t(views.size())) + 1, [](const Rejected& one) { return std::uint64_t(one.view); }, execution);
-  return rejected;
+  radixSort(words, 3 * (views.lattice().depth + 1), [](const RejectedWord& one) { return one.corners.block; }, execution);
+  radixSort(words, highestBit(std::uint64_t(views.size())) + 1, [](const RejectedWord& one) { return std::uint64_t(one.view); }, execution);
+  std::size_t kept = 0;
+  for (const RejectedWord& word : words)
+  {
+    if (kept > 0 && words[kept - 1].view == word.view && words[kept - 1].corners.block == word.corners.block)
+    {
+      words[kept - 1].corners.bits |= word.corners.bits;
+    }
+    else
+    {
+      words[kept++] = word;
+    }
+  }
+  words.resize(kept);
+  return words;
+}
+
+/** All corners of words, ascending, of a block one. */
+std::vector<BlockWord> cornersOf(const std::vector<RejectedWord>& words)
+{
+  std::vector<BlockWord> corners;
+  for (const RejectedWord& word : words)
+  {
+    if (corners.empty() || corners.back().block != word.corners.block)
+    {
+      corners.push_back({ word.corners.block, 0 });
+    }
+    corners.back().bits |= word.corners.bits;
+  }
+  return corners;
 }
 
 /** What has been found and from which the search goes on. */
 struct Front
 {
-  std::vector<Rejected> corners;   ///< ascending
+  std::vector<RejectedWord> words; ///< by block, then by view
   std::vector<RejectedCube> cubes; ///< ascending, none twice
+
+  bool empty() const { return this->words.empty() && this->cubes.empty(); }
 };
 
 void sortUnique(std::vector<RejectedCube>& cubes)
@@ -137,25 +194,25 @@ public:
   {
   }
 
-  /** `first`: of the shell's corners those that one view alone rejects, ascending. */
-  RejectedCorners from(const CornerShell& shell, std::vector<Rejected> first)
+  /** `first`: of the shell's corners those that one view alone rejects, by block, then by view. */
+  RejectedCorners from(const CornerShell& shell, std::vector<RejectedWord> first)
   {
     Front front;
-    front.corners = std::move(first);
-    if (!front.corners.empty())
+    front.words = std::move(first);
+    if (!front.words.empty())
     {
-      this->look(PointBlocks(shell.corners, this->Exec), front.corners);
+      this->look(PointBlocks(shell.corners, this->Exec), front.words);
       this->takeCubes(front);
     }
-    while (!front.corners.empty() || !front.cubes.empty())
+    while (!front.empty())
     {
       this->Exec.checkpoint(0.0);
       Front next = this->beside(front);
-      this->Found.corners.insert(this->Found.corners.end(), front.corners.begin(), front.corners.end());
+      this->Found.words.insert(this->Found.words.end(), front.words.begin(), front.words.end());
       this->Found.cubes.insert(this->Found.cubes.end(), front.cubes.begin(), front.cubes.end());
       front = std::move(next);
     }
-    this->Found.corners = byView(std::move(this->Found.corners), this->Views, this->Exec);
+    this->Found.words = byView(std::move(this->Found.words), this->Views, this->Exec);
     std::sort(this->Found.cubes.begin(), this->Found.cubes.end(),
       [](const RejectedCube& a, const RejectedCube& b) { return std::tie(a.view, a.cube.corner) < std::tie(b.view, b.cube.corner); });
     return std::move(this->Found);
@@ -166,96 +223,73 @@ private:
   struct Met
   {
     std::vector<RejectedCube> cubes;
-    std::vector<std::uint64_t> corners;
+    std::vector<BlockWord> corners; ///< some of a block
   };
 
   Front beside(const Front& front)
   {
     Met met = this->besideCubes(front.cubes);
-    PointBlocks asked = PointBlocks(this->codesOf(front.corners), this->Exec).beside(this->Views.lattice(), this->Exec);
+    PointBlocks asked = PointBlocks(cornersOf(front.words)).beside(this->Views.lattice(), this->Exec);
     if (!met.corners.empty())
     {
-      std::vector<std::uint64_t> codes = asked.points(this->Exec);
-      codes.insert(codes.end(), met.corners.begin(), met.corners.end());
-      radixSort(codes, 3 * (this->Views.lattice().depth + 1), [](std::uint64_t code) { return code; }, this->Exec);
-      asked = PointBlocks(codes, this->Exec);
+      std::sort(met.corners.begin(), met.corners.end(), [](const BlockWord& a, const BlockWord& b) { return a.block < b.block; });
+      asked = PointBlocks(unitedWords(asked.words(), met.corners));
     }
     asked.remove(this->Alone, this->Exec);
     asked.remove(this->Others, this->Exec);
-    std::vector<std::uint64_t> codes = asked.points(this->Exec);
     if (this->Largest > 0)
     {
-      codes = selected(
-        codes.size(), [&](std::size_t n) { return !this->isInCube(codes[n], LeastCube); }, [&](std::size_t n) { return codes[n]; }, this->Exec);
-      asked = PointBlocks(codes, this->Exec);
+      const std::vector<BlockWord>& all = asked.words();
+      asked = PointBlocks(selected(
+        all.size(), [&](std::size_t n) { return !this->isInCube(64 * all[n].block, LeastCube); }, [&](std::size_t n) { return all[n]; }, this->Exec));
     }
     Front next;
-    next.corners = rejectedOf(this->Views, codes, this->Exec);
-    this->look(std::move(asked), next.corners);
+    next.words = rejectedOf(this->Views, asked.words(), this->Exec);
+    this->look(std::move(asked), next.words);
     this->takeCubes(next);
     next.cubes.insert(next.cubes.end(), met.cubes.begin(), met.cubes.end());
     sortUnique(next.cubes);
     return next;
   }
 
-  /** Corners that have been asked about, and those of them that one view alone rejects, ascending. */
-  void look(PointBlocks corners, const std::vector<Rejected>& rejected)
+  /** Corners that have been asked about, and those of them that one view alone rejects. */
+  void look(PointBlocks corners, const std::vector<RejectedWord>& rejected)
   {
-    const PointBlocks alone(this->codesOf(rejected), this->Exec);
+    const PointBlocks alone(cornersOf(rejected));
     corners.remove(alone, this->Exec);
     this->Alone.add(alone.words());
     this->Others.add(corners.words());
   }
 
-  std::vector<std::uint64_t> codesOf(const std::vector<Rejected>& rejected) const
-  {
-    std::vector<std::uint64_t> codes(rejected.size());
-    this->Exec.forRanges(codes.size(), 4096,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t n = first; n < last; ++n)
-        {
-          codes[n] = rejected[n].corner;
-        }
-      });
-    return codes;
-  }
-
-  /** Take out of a front's corners those that lie in cubes, for these. */
+  /** Take out of a front the words of blocks that lie in cubes, for these. */
   void takeCubes(Front& front)
   {
-    std::vector<Rejected>& corners = front.corners;
-    auto starts = selected(
-      corners.size(), [&](std::size_t n) { return n == 0 || corners[n - 1].corner >> 6 != corners[n].corner >> 6; }, [](std::size_t n) { return n; }, this->Exec);
-    std::vector<RejectedCube> cubes(starts.size()); // of the corners of each block
+    std::vector<RejectedWord>& words = front.words;
+    const auto isOfBlock = [&](std::size_t n, std::uint64_t block) { return n < words.size() && words[n].corners.block == block; };
+    std::vector<RejectedCube> cubes(words.size()); // of the block of each word
     this->Exec.forRanges(cubes.size(), 64,
       [&](std::size_t first, std::size_t last)
       {
         RejectedCubes known(this->Views, this->Depth);
-        for (std::size_t b = first; b < last; ++b)
+        for (std::size_t n = first; n < last; ++n)
         {
-          const Rejected& one = corners[starts[b]];
-          cubes[b] = { this->Others.ofBlock(one.corner >> 6) != 0 ? PointCube{ 0, 0 } : known.around(one.corner, one.view), one.view };
+          const std::uint64_t block = words[n].corners.block;
+          const bool isOneViews = !isOfBlock(n + 1, block) && (n == 0 || !isOfBlock(n - 1, block));
+          if (isOneViews && this->Others.ofBlock(block) == 0)
+          {
+            cubes[n] = { known.around(64 * block, words[n].view), words[n].view };
+          }
         }
       });
-    const auto isNone = [](const RejectedCube& one) { return one.cube.side == 0; };
-    if (std::all_of(cubes.begin(), cubes.end(), isNone))
+    const auto isInCube = [&](std::size_t n) { return cubes[n].cube.side != 0; };
+    const auto taken = selected(cubes.size(), isInCube, [&](std::size_t n) { return cubes[n]; }, this->Exec);
+    if (!taken.empty())
     {
-      return;
+      words = selected(words.size(), [&](std::size_t n) { return !isInCube(n); }, [&](std::size_t n) { return words[n]; }, this->Exec);
+      this->know(taken);
+      front.cubes = taken;
+      sortUnique(front.cubes);
     }
-    starts.push_back(corners.size());
-    std::vector<Rejected> others;
-    for (std::size_t b = 0; b < cubes.size(); ++b)
-    {
-      if (isNone(cubes[b]))
-      {
-        others.insert(others.end(), corners.begin() + std::ptrdiff_t(starts[b]), corners.begin() + std::ptrdiff_t(starts[b + 1]));
-      }
-    }
-    corners.swap(others);
-    cubes.erase(std::remove_if(cubes.begin(), cubes.end(), isNone), cubes.end());
-    this->know(cubes);
-    front.cubes.swap(cubes);
   }
 
   Met besideCubes(const std::vector<RejectedCube>& cubes)
@@ -300,14 +334,11 @@ private:
     };
     const auto addFacing = [&](const LatticePoint& low, const CubeFace& face)
     {
-      const std::uint64_t block = mortonCode(low);
-      for (std::uint64_t facing = blockSlab(face.axis, face.ahead ? 0 : BlockSide - 1); facing != 0; facing &= facing - 1)
+      const std::uint64_t block = mortonCode(low) >> 6;
+      const std::uint64_t facing = blockSlab(face.axis, face.ahead ? 0 : BlockSide - 1) & withinLattice(this->Views.lattice(), block);
+      if (facing != 0)
       {
-        const std::uint64_t corner = block + std::uint64_t(lowestBit(facing));
-        if (isOfLattice(fromMorton(corner), n))
-        {
-          met.corners.push_back(corner);
-        }
+        met.corners.push_back({ block, facing });
       }
     };
     forBlocksBeside(from.cube, isDone, addFacing);
@@ -351,7 +382,8 @@ private:
 RejectedCorners findRejected(const Octree& octree, const LatticeViews& views, const CornerShell& shell, double depth,
                              KnownVotes::Votes& votes, Execution& execution)
 {
-  const std::vector<std::uint64_t> first = onceDisputed(octree, views, shell, votes, execution);
+  const std::vector<std::uint64_t> corners = onceDisputed(octree, views, shell, votes, execution);
+  const std::vector<BlockWord> first = blockWords(corners, blockStarts(corners, execution), execution);
   return Search(views, depth, execution).from(shell, votes ? rejectedOnce(octree, views, first, execution) : rejectedOf(views, first, execution));
 }
 

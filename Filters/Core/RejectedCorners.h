@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "BlockWords.h"
 #include "CornerShell.h"
 #include "PointCubes.h"
 #include "PreparedViews.h"
@@ -14,10 +15,10 @@
 namespace silhouette
 {
 
-/** A corner that one view alone calls background. */
-struct Rejected
+/** Corners of a block that one view alone calls background. */
+struct RejectedWord
 {
-  std::uint64_t corner = 0;
+  BlockWord corners{ 0, 0 };
   std::int32_t view = -1;
 };
 
@@ -28,10 +29,10 @@ struct RejectedCube
   std::int32_t view = -1;
 };
 
-/** What one view alone rejects, by view, then by code: the cubes' points are not among the corners. */
+/** What one view alone rejects, by view, then by code: no block of the cubes is among the words'. */
 struct RejectedCorners
 {
-  std::vector<Rejected> corners;
+  std::vector<RejectedWord> words; ///< of a view and block one
   std::vector<RejectedCube> cubes;
 };
 

@@ -33,12 +33,11 @@ void check(const SilhouetteRepairOptions& options)
 }
 
 /** Is no object within `depth` octants of the corner, in the view that rejects it? */
-bool isDeep(const LatticeViews& views, const Rejected& rejected, double depth)
+bool isDeep(const LatticeViews& views, int rejecting, const LatticePoint& p, double depth)
 {
-  const LatticeProjection& projection = views.projection(rejected.view);
-  const LatticePoint p = fromMorton(rejected.corner);
+  const LatticeProjection& projection = views.projection(rejecting);
   const auto h = projection(p);
-  const PreparedView& view = views.view(rejected.view);
+  const PreparedView& view = views.view(rejecting);
   const double u = h.U / h.W, v = h.V / h.W, radius = depth * pixelsPerOctant(projection, p);
   const auto isFree = [&](double a, double b)
   {
@@ -59,9 +58,9 @@ bool isDeep(const LatticeViews& views, const Rejected& rejected, double depth)
 std::size_t imageArea(const LatticeProjection& projection, const PointComponent& component)
 {
   ImageSquares squares(projection, pixelsPerOctant(projection, fromMorton(component.first())));
-  for (const std::uint64_t corner : component.points)
+  for (const BlockWord& word : component.words)
   {
-    squares.add(fromMorton(corner));
+    forCodes(word, [&](std::uint64_t corner) { squares.add(fromMorton(corner)); });
   }
   for (const PointCube& cube : component.cubes)
   {
@@ -76,13 +75,15 @@ std::size_t imageArea(const LatticeProjection& projection, const PointComponent&
  */
 Blobs longAlongTheView(const LatticeViews& views, int view, const Blobs& deep, const SurvivorBox& box, const SilhouetteRepairOptions& options)
 {
-  const auto components = pointComponents(deep.corners, deep.cubes, Steps::Corners, std::size_t(options.blobCorners));
+  const double chord = std::max(options.blobChord, FewViewsChord / views.size()) * box.extent;
+  // A component's image is at least one square.
+  const std::size_t least = std::max(std::size_t(options.blobCorners), std::size_t(WrongViewChord * chord));
+  const auto components = pointComponents(deep.words, deep.cubes, Steps::Corners, least);
   std::vector<double> chords;
   for (const PointComponent& component : components)
   {
     chords.push_back(double(component.size) / double(imageArea(views.projection(view), component)));
   }
-  const double chord = std::max(options.blobChord, FewViewsChord / views.size()) * box.extent;
   Blobs blobs;
   // A view that is wrong elsewhere is trusted less: where a disc crosses the contour, its chord is short.
   const bool isWrong = std::any_of(chords.begin(), chords.end(), [&](double own) { return own >= chord; });
@@ -90,11 +91,12 @@ Blobs longAlongTheView(const LatticeViews& views, int view, const Blobs& deep, c
   {
     if (chords[c] >= WrongViewChord * chord)
     {
-      blobs.corners.insert(blobs.corners.end(), components[c].points.begin(), components[c].points.end());
+      blobs.words.insert(blobs.words.end(), components[c].words.begin(), components[c].words.end());
       blobs.cubes.insert(blobs.cubes.end(), components[c].cubes.begin(), components[c].cubes.end());
     }
   }
-  std::sort(blobs.corners.begin(), blobs.corners.end());
+  std::sort(blobs.words.begin(), blobs.words.end(), [](const BlockWord& a, const BlockWord& b) { return a.block < b.block; });
+  blobs.words = unitedWords(blobs.words, {});
   std::sort(blobs.cubes.begin(), blobs.cubes.end(), [](const PointCube& a, const PointCube& b) { return a.corner < b.corner; });
   return blobs;
 }
@@ -104,31 +106,29 @@ std::vector<Blobs> deepCorners(const Octree& octree, const LatticeViews& views, 
                                KnownVotes::Votes& votes, Execution& execution)
 {
   const double depth = std::max(options.blobDepth, FewViewsDepth / (double(views.size()) * views.size()));
-  const RejectedCorners rejected = findRejected(octree, views, shell, depth, votes, execution);
-  const std::vector<Rejected>& corners = rejected.corners;
-  std::vector<std::uint8_t> deep(corners.size(), 0);
-  execution.forRanges(corners.size(), 1024,
+  RejectedCorners rejected = findRejected(octree, views, shell, depth, votes, execution);
+  std::vector<RejectedWord>& words = rejected.words;
+  execution.forRanges(words.size(), 64,
                       [&](std::size_t first, std::size_t last)
                       {
-                        for (std::size_t c = first; c < last; ++c)
+                        for (std::size_t n = first; n < last; ++n)
                         {
-                          deep[c] = isDeep(views, corners[c], depth) ? 1 : 0;
+                          const auto keepDeep = [&, view = words[n].view](std::uint64_t corner)
+                          {
+                            const bool deep = isDeep(views, view, fromMorton(corner), depth);
+                            words[n].corners.bits &= ~(std::uint64_t(deep ? 0 : 1) << (corner & 63));
+                          };
+                          forCodes(BlockWord(words[n].corners), keepDeep);
                         }
                       });
   std::vector<Blobs> ofViews(std::size_t(views.size()));
-  execution.forRanges(ofViews.size(), 1,
-                      [&](std::size_t firstView, std::size_t lastView)
-                      {
-                        const auto isBefore = [](const Rejected& one, std::size_t view) { return std::size_t(one.view) < view; };
-                        auto one = std::lower_bound(corners.begin(), corners.end(), firstView, isBefore);
-                        for (; one != corners.end() && std::size_t(one->view) < lastView; ++one)
-                        {
-                          if (deep[std::size_t(one - corners.begin())] != 0)
-                          {
-                            ofViews[std::size_t(one->view)].corners.push_back(one->corner);
-                          }
-                        }
-                      });
+  for (const RejectedWord& word : words)
+  {
+    if (word.corners.bits != 0)
+    {
+      ofViews[std::size_t(word.view)].words.push_back(word.corners);
+    }
+  }
   for (const RejectedCube& one : rejected.cubes)
   {
     ofViews[std::size_t(one.view)].cubes.push_back(one.cube);
@@ -162,7 +162,7 @@ std::optional<PreparedViews> withoutBlobs(const Octree& octree, const LatticeVie
 {
   const PreparedViews& views = lattice.prepared();
   const auto blobs = findBlobs(octree, lattice, shell, box, options, votes, execution);
-  if (std::all_of(blobs.begin(), blobs.end(), [](const Blobs& ofView) { return ofView.corners.empty() && ofView.cubes.empty(); }))
+  if (std::all_of(blobs.begin(), blobs.end(), [](const Blobs& ofView) { return ofView.empty(); }))
   {
     return std::nullopt;
   }

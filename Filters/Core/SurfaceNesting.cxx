@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceNesting.h"
 
+#include "LargePages.h"
 #include "MeshComponents.h"
 #include "RowIntervals.h"
 
@@ -16,7 +17,7 @@ std::vector<std::uint32_t> numberComponents(const LatticeSurface& surface, std::
 {
   Execution alone;
   ConcurrentUnionFind sets = connectPoints(surface.triangles, surface.edges.size(), alone);
-  std::vector<std::uint32_t> component(surface.edges.size());
+  auto component = largeVector<std::uint32_t>(surface.edges.size());
   count = 0;
   for (std::uint32_t e = 0; e < component.size(); ++e)
   {
@@ -98,7 +99,7 @@ SurfaceNesting nestSurface(const CornerShell& shell, const LatticeSurface& surfa
 void keepComponents(
   const SurfaceNesting& nesting, const std::vector<std::uint8_t>& keep, LatticeSurface& surface, std::vector<double>& fractions)
 {
-  std::vector<std::int32_t> number(surface.edges.size(), -1);
+  auto number = largeVector<std::int32_t>(surface.edges.size(), -1);
   std::vector<CrossedEdge> edges;
   std::vector<double> keptFractions;
   for (std::size_t e = 0; e < surface.edges.size(); ++e)

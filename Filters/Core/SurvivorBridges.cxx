@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurvivorBridges.h"
 
+#include "LargePages.h"
+
 #include <algorithm>
 #include <unordered_map>
 
@@ -92,7 +94,7 @@ private:
 std::vector<std::uint32_t> componentsOfCorners(const CornerShell& shell, BlockRegions& survivors, Execution& execution)
 {
   const std::vector<std::uint32_t> cells = survivors.numbersOf(shell.cells, execution);
-  std::vector<std::uint32_t> corners(shell.corners.size());
+  auto corners = largeVector<std::uint32_t>(shell.corners.size());
   for (std::size_t cell = 0; cell < cells.size(); ++cell)
   {
     const std::uint32_t component = survivors.find(cells[cell]);
@@ -117,7 +119,7 @@ std::vector<Bridge> bridgeSurvivors(
   const std::vector<std::uint32_t> numbers = componentsOfCorners(shell, survivors, execution);
   std::vector<std::vector<std::uint32_t>> components; // by their first corners
   constexpr std::uint32_t nowhere = 0xffffffffu;
-  std::vector<std::uint32_t> places(survivors.size(), nowhere); // of each number its component
+  auto places = largeVector<std::uint32_t>(survivors.size(), nowhere); // of each number its component
   for (std::uint32_t corner = 0; corner < numbers.size(); ++corner)
   {
     std::uint32_t& place = places[numbers[corner]];

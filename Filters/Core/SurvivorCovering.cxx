@@ -3,6 +3,7 @@
 
 #include "CornerEffects.h"
 #include "IndicesWhere.h"
+#include "LargePages.h"
 #include "LatticeRegions.h"
 #include "LostCovering.h"
 #include "ShellPaths.h"
@@ -211,7 +212,7 @@ private:
     {
       return {};
     }
-    std::vector<std::uint32_t> components(this->shell().cells.size(), None);
+    auto components = largeVector<std::uint32_t>(this->shell().cells.size(), None);
     std::uint32_t first = None;
     bool several = false;
     for (std::uint32_t cell = 0; cell < components.size(); ++cell)
@@ -235,7 +236,7 @@ private:
   {
     constexpr std::uint32_t several = None - 1;
     const std::vector<std::uint32_t> components = this->componentsOfCells();
-    std::vector<std::uint32_t> seen(components.empty() ? 0 : this->shell().corners.size(), None);
+    auto seen = largeVector<std::uint32_t>(components.empty() ? 0 : this->shell().corners.size(), None);
     for (std::size_t cell = 0; cell < components.size(); ++cell)
     {
       for (const std::uint32_t corner : this->shell().cellCorners[cell])

@@ -5,6 +5,7 @@
 #include "CornerVotes.h"
 #include "EdgeCrossing.h"
 #include "FirstTouch.h"
+#include "LargePages.h"
 #include "LatticeSurface.h"
 #include "ParameterRange.h"
 #include "SubPixelLabels.h"
@@ -70,7 +71,7 @@ void forEach(Execution& execution, std::size_t count, const Work& work)
 std::vector<std::uint8_t> labels(const Lattice& lattice, const CornerShell& shell,
   const std::vector<std::uint16_t>& votes, int required, Execution& execution)
 {
-  std::vector<std::uint8_t> inside(votes.size());
+  auto inside = largeVector<std::uint8_t>(votes.size());
   execution.forRanges(votes.size(), 4096,
     [&](std::size_t first, std::size_t last)
     {

@@ -152,9 +152,9 @@ public:
     , WallOf(points.size(), Settled)
     , SideOf(points.size(), 0)
   {
-    for (PointComponent& wall : pointComponents(points, {}, Steps::Corners, 1))
+    for (const PointComponent& wall : pointComponents(wordsOf(points), {}, Steps::Corners, 1))
     {
-      this->add(std::move(wall.points));
+      this->add(codesOf(wall.words));
     }
   }
 

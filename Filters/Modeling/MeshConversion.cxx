@@ -2,6 +2,7 @@
 #include "MeshConversion.h"
 
 #include "Error.h"
+#include "LargeArrays.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
@@ -32,7 +33,7 @@ void storePoints(const Mesh& mesh, bool single, vtkPolyData* out)
 {
   vtkNew<vtkPoints> points;
   points->SetDataType(single ? VTK_FLOAT : VTK_DOUBLE);
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
+  setTuples(points->GetData(), static_cast<vtkIdType>(mesh.points.size()));
   if (!single && !mesh.points.empty())
   {
     static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "points are three doubles each");
@@ -50,8 +51,8 @@ void storeTriangles(const Mesh& mesh, vtkPolyData* out)
   const auto count = static_cast<vtkIdType>(mesh.triangles.size());
   vtkNew<vtkTypeInt64Array> offsets;
   vtkNew<vtkTypeInt64Array> corners;
-  offsets->SetNumberOfValues(count + 1);
-  corners->SetNumberOfValues(3 * count);
+  setTuples(offsets, count + 1);
+  setTuples(corners, 3 * count);
   for (vtkIdType i = 0; i < count; ++i)
   {
     offsets->SetValue(i, 3 * i);
@@ -68,7 +69,7 @@ void storeTriangles(const Mesh& mesh, vtkPolyData* out)
 
 void storeNormals(const Mesh& mesh, vtkPolyData* out)
 {
-  std::vector<Eigen::Vector3d> sums(mesh.points.size(), Eigen::Vector3d::Zero());
+  auto sums = largeVector<Eigen::Vector3d>(mesh.points.size(), Eigen::Vector3d::Zero());
   for (const Triangle& t : mesh.triangles)
   {
     // Twice the area times the unit normal: large triangles count for more.
@@ -82,7 +83,7 @@ void storeNormals(const Mesh& mesh, vtkPolyData* out)
   vtkNew<vtkFloatArray> normals;
   normals->SetName("Normals");
   normals->SetNumberOfComponents(3);
-  normals->SetNumberOfTuples(static_cast<vtkIdType>(sums.size()));
+  setTuples(normals, static_cast<vtkIdType>(sums.size()));
   for (std::size_t i = 0; i < sums.size(); ++i)
   {
     const Eigen::Vector3d unit = sums[i].normalized();
@@ -111,7 +112,7 @@ void storeInsideVotes(const std::vector<std::array<std::uint16_t, 2>>& votes, vt
   array->SetNumberOfComponents(2);
   array->SetComponentName(0, "InsideEnd");
   array->SetComponentName(1, "OutsideEnd");
-  array->SetNumberOfTuples(static_cast<vtkIdType>(votes.size()));
+  setTuples(array, static_cast<vtkIdType>(votes.size()));
   for (std::size_t i = 0; i < votes.size(); ++i)
   {
     array->SetTypedTuple(static_cast<vtkIdType>(i), votes[i].data());
@@ -134,7 +135,7 @@ Mesh meshOf(vtkPolyData* surface, const char* what)
     throw InvalidInput(std::string(what) + " has triangle strips; vtkTriangleFilter makes triangles of them");
   }
   Mesh mesh;
-  mesh.points.resize(static_cast<std::size_t>(surface->GetNumberOfPoints()));
+  resizeLarge(mesh.points, static_cast<std::size_t>(surface->GetNumberOfPoints()));
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
   {
     surface->GetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
@@ -143,7 +144,7 @@ Mesh meshOf(vtkPolyData* surface, const char* what)
       throw InvalidInput(std::string(what) + ": point " + std::to_string(i) + " is not finite");
     }
   }
-  mesh.triangles.reserve(static_cast<std::size_t>(surface->GetNumberOfPolys()));
+  reserveLarge(mesh.triangles, static_cast<std::size_t>(surface->GetNumberOfPolys()));
   auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
   {

@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "FieldValues.h"
+#include "LargeArrays.h"
 #include "vtkSilhouetteCompatibility.h"
 
 #include "vtkBitArray.h"
@@ -95,11 +96,11 @@ public:
       count += static_cast<vtkIdType>(generation.size());
     }
     this->State->SetName("State");
-    this->State->SetNumberOfValues(count);
+    setTuples(this->State, count);
     this->GenerationNumber->SetName("Generation");
-    this->GenerationNumber->SetNumberOfValues(count);
+    setTuples(this->GenerationNumber, count);
     this->Code->SetName("LatticeCode");
-    this->Code->SetNumberOfValues(count);
+    setTuples(this->Code, count);
     this->Mask->SetNumberOfValues(count);
   }
 

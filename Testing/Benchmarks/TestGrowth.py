@@ -33,6 +33,10 @@ class Growth(unittest.TestCase):
             self.assertGreater(float(whole[1][7]), 0.0)
             pieces = rows(folder, "--depths", "5", "--pieces", "3")
             self.assertEqual(pieces[0][3:5], whole[1][3:5], "leaves on the surface and faces")
+            hulls = rows(folder, "--depths", "4-5", "--local-hulls")
+            self.assertEqual([row[:5] for row in hulls], [row[:5] for row in whole])
+            self.assertEqual([len(row) for row in hulls], [12, 12])
+            self.assertTrue(all(float(cell) > 0.0 for cell in hulls[1][5:]))
             ranks = rows(folder, "--depths", "5", "--ranks", "1,2")
             self.assertEqual([row[0] for row in ranks], ["1", "2"])
             least, most = ranks[0][7].split(" to ")
@@ -47,6 +51,13 @@ class Growth(unittest.TestCase):
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("goes with one depth", done.stderr)
         self.assertEqual(done.stdout, "")
+
+    def test_local_hulls_go_with_one_piece(self):
+        for other in (["--pieces", "2"], ["--depths", "5", "--ranks", "1,2"]):
+            done = subprocess.run([sys.executable, str(HERE / "growth.py"), "none", "--local-hulls", *other],
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("--local-hulls goes with one piece", done.stderr)
 
     def test_a_run_that_fails_is_said_without_a_traceback(self):
         with tempfile.TemporaryDirectory() as nothing:

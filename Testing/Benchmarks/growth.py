@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What each generation costs: carve and exact surface of a capture, by the Python classes, a process for each depth.
+"""What each generation costs: carve, exact surface and local hulls of a capture, by the Python classes, a process for each depth.
 
-    growth.py CAPTURE [--key CHANNEL:EXCESS] [--depths 7-11] [--pieces N]
+    growth.py CAPTURE [--key CHANNEL:EXCESS] [--depths 7-11] [--pieces N | --local-hulls]
     growth.py CAPTURE [--key CHANNEL:EXCESS] --depths 10 --ranks 1,2,4,8
 
-Views include a carve to depth 6. With --pieces the octree is made in pieces, one after another, and no surface is kept.
+Views include a carve to depth 6. Local hulls are made with --local-hulls alone, and count in the memory then. With --pieces the octree is made in pieces, one after another, and no surface is kept.
 With --ranks every piece of each of these numbers is made by a process of its own, as the ranks of an MPI run would, one
 after another so that they do not disturb each other: what the slowest takes is what the run would. The package
 vtksilhouette has to be on Python's path; memory is the operating system's account of the process.
@@ -18,10 +18,10 @@ import time
 
 
 def pipeline(options):
-    from vtksilhouette import (vtkSilhouetteCaptureReader, vtkSilhouetteExtractor, vtkSilhouetteOctreeSource,
-                               vtkVotingMarchingCubes)
+    from vtksilhouette import (vtkLocalHullSurfacer, vtkSilhouetteCaptureReader, vtkSilhouetteExtractor,
+                               vtkSilhouetteOctreeSource, vtkVotingMarchingCubes)
     reader, extractor = vtkSilhouetteCaptureReader(), vtkSilhouetteExtractor()
-    octree, cubes = vtkSilhouetteOctreeSource(), vtkVotingMarchingCubes()
+    octree, cubes, hulls = vtkSilhouetteOctreeSource(), vtkVotingMarchingCubes(), vtkLocalHullSurfacer()
     reader.SetFileName(options.capture)
     extractor.SetInputConnection(reader.GetOutputPort())
     if options.key:
@@ -32,7 +32,10 @@ def pipeline(options):
     octree.SetInputConnection(extractor.GetOutputPort())
     cubes.SetInputConnection(0, octree.GetOutputPort(0))
     cubes.SetInputConnection(1, octree.GetOutputPort(1))
-    return reader, extractor, octree, cubes
+    hulls.SetInputConnection(0, cubes.GetOutputPort())
+    hulls.SetInputConnection(1, octree.GetOutputPort(0))
+    hulls.SetInputConnection(2, octree.GetOutputPort(1))
+    return extractor, octree, cubes, hulls
 
 
 def count(data, name):
@@ -41,7 +44,7 @@ def count(data, name):
 
 def one(options):
     """One depth: seconds, octants, view tests, memory."""
-    reader, extractor, octree, cubes = pipeline(options)
+    extractor, octree, cubes, hulls = pipeline(options)
     begin = time.process_time()
     extractor.Update()
     octree.SetDepth(6)
@@ -61,6 +64,10 @@ def one(options):
         result["view_tests"] += count(grid, "ViewTests")
         result["intersection"] += count(grid, "IntersectionOctants")
         result["faces"] += cubes.GetOutput().GetNumberOfPolys()
+    if options.local_hulls:
+        start = time.process_time()
+        hulls.Update(0)
+        result["hulls"] = time.process_time() - start
     result["memory_mib"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     print(json.dumps(result))
 
@@ -94,18 +101,22 @@ def scaling(options):
 
 def table(options):
     rows = {depth: measure("--depth", depth) for depth in options.depths}
-    print("| depth | octants tested | view tests | on the surface | faces | carve | surface | time, of the depth before | "
-          "memory, MiB |\n| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
+    heads = ["depth", "octants tested", "view tests", "on the surface", "faces", "carve", "surface", "time, of the depth before",
+             *(["local hulls", "of the depth before", "of the surface"] if options.local_hulls else []), "memory, MiB"]
+    print("| %s |\n|%s" % (" | ".join(heads), " ---: |" * len(heads)))
     first = rows[options.depths[0]]
     base = first["carve"] + first["surface"]
     for depth, row in rows.items():
         taken = row["carve"] + row["surface"]
         before = rows.get(depth - 1)
-        print("| %d | %s | %s | %s | %s | %.3g | %.3g | %s | %.0f |" % (
-            depth, *(format(row[key], ",") for key in ("octants", "view_tests", "intersection", "faces")),
-            row["carve"] / base, row["surface"] / base,
-            "%.2f" % (taken / (before["carve"] + before["surface"])) if before else "", row["memory_mib"]))
-    print("\nCarve and surface as multiples of both at depth %d (%.3g s)." % (options.depths[0], base))
+        cells = [depth, *(format(row[key], ",") for key in ("octants", "view_tests", "intersection", "faces")),
+                 "%.3g" % (row["carve"] / base), "%.3g" % (row["surface"] / base),
+                 "%.2f" % (taken / (before["carve"] + before["surface"])) if before else ""]
+        if options.local_hulls:
+            cells += ["%.3g" % (row["hulls"] / base), "%.2f" % (row["hulls"] / before["hulls"]) if before else "",
+                      "%.2f" % (row["hulls"] / row["surface"])]
+        print("| %s |" % " | ".join(map(str, [*cells, "%.0f" % row["memory_mib"]])))
+    print("\nTimes as multiples of carve and surface at depth %d (%.3g s)." % (options.depths[0], base))
 
 
 def depths_of(text):
@@ -119,12 +130,15 @@ def main():
     parser.add_argument("--key")
     parser.add_argument("--depths", type=depths_of, default=list(range(7, 12)))
     parser.add_argument("--pieces", type=int, default=1)
+    parser.add_argument("--local-hulls", action="store_true")
     parser.add_argument("--ranks", type=lambda text: [int(n) for n in text.split(",")])
     parser.add_argument("--depth", type=int, help=argparse.SUPPRESS)
     parser.add_argument("--piece", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.ranks and len(options.depths) > 1:
         parser.error("--ranks goes with one depth: --depths %d" % options.depths[-1])
+    if options.local_hulls and (options.ranks or options.pieces > 1):
+        parser.error("--local-hulls goes with one piece: the local hulls are decided over the whole")
     one(options) if options.depth else scaling(options) if options.ranks else table(options)
 
 

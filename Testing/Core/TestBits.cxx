@@ -69,6 +69,17 @@ TEST(RadixSort, IsAStableSortByAsManyBitsAsAreNamed)
   }
 }
 
+TEST(IndicesWhere, ConcatenatedAreListsOneAfterAnother)
+{
+  for (const int threads : { 1, 3 })
+  {
+    ThreadedExecution execution(threads);
+    EXPECT_EQ(concatenated<int>({ {}, { 3, 1 }, {}, { 4 }, { 1, 5, 9 }, {} }, execution), (std::vector<int>{ 3, 1, 4, 1, 5, 9 }));
+    EXPECT_TRUE(concatenated<int>({}, execution).empty());
+    EXPECT_TRUE(concatenated<int>({ {}, {} }, execution).empty());
+  }
+}
+
 TEST(IndicesWhere, SelectedAreThoseThatAreWantedInTheirOrder)
 {
   for (const std::size_t count : { std::size_t(0), std::size_t(1), std::size_t(32768), std::size_t(200001) })

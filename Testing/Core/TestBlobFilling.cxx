@@ -46,7 +46,7 @@ Blobs someBlobs(Random& random)
     }
     else if (random.uniform() < 0.3)
     {
-      blobs.corners.push_back(64 * block + std::uint64_t(random.below(64)));
+      blobs.words.push_back({ block, std::uint64_t(1) << random.below(64) });
     }
   }
   return blobs;
@@ -54,7 +54,7 @@ Blobs someBlobs(Random& random)
 
 std::vector<std::uint64_t> cornersOf(const Blobs& blobs)
 {
-  std::vector<std::uint64_t> corners = blobs.corners;
+  std::vector<std::uint64_t> corners = codesOf(blobs.words);
   for (const PointCube& cube : blobs.cubes)
   {
     for (std::uint64_t code = cube.corner; code < cube.end(); ++code)
@@ -171,7 +171,7 @@ TEST(BlobFilling, OfNoBlobsAndOnesThatWantToStop)
   const BlobFilling none = fillBlobs(fine, blobs, { 0, 2 }, filled, execution);
   EXPECT_EQ(none.pixels, std::vector<std::uint64_t>(std::size_t(views.size()), 0));
   EXPECT_EQ(none.looks, 0u);
-  blobs[0].corners = { 7 };
+  blobs[0].words = { { 0, 1 << 7 } };
   CancelledExecution cancelled;
   EXPECT_THROW(fillBlobs(fine, blobs, { 0, 2 }, filled, cancelled), Cancelled);
 }

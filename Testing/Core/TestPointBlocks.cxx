@@ -33,6 +33,29 @@ PointBlocks blocksOf(const std::set<std::uint64_t>& codes)
 
 } // namespace
 
+TEST(PointBlocks, WordsAreThoseOfTheCodes)
+{
+  Random random(5);
+  const Lattice lattice{ unitCube(), 4 };
+  for (const int count : { 0, 1, 40, 2000 })
+  {
+    const auto one = someCodes(lattice, random, count), other = someCodes(lattice, random, count / 2);
+    std::set<std::uint64_t> both = one;
+    both.insert(other.begin(), other.end());
+    const auto listOf = [](const std::set<std::uint64_t>& codes) { return std::vector<std::uint64_t>(codes.begin(), codes.end()); };
+    const std::vector<BlockWord> words = wordsOf(listOf(one)), joined = unitedWords(words, wordsOf(listOf(other)));
+    EXPECT_EQ(codesOf(words), listOf(one));
+    EXPECT_EQ(codesOf(joined), listOf(both));
+    for (std::size_t n = 1; n < joined.size(); ++n)
+    {
+      EXPECT_LT(joined[n - 1].block, joined[n].block);
+    }
+    ThreadedExecution execution(3);
+    EXPECT_EQ(PointBlocks(words).points(execution), listOf(one));
+  }
+  EXPECT_EQ(codesOf(unitedWords({ { 2, 1 }, { 2, 6 }, { 3, 1 } }, {})), (std::vector<std::uint64_t>{ 128, 129, 130, 192 }));
+}
+
 TEST(PointBlocks, NeighboursAreThoseOfThePointsOneByOne)
 {
   Random random(3);

@@ -58,7 +58,7 @@ std::vector<std::vector<std::uint64_t>> pointsOf(const std::vector<PointComponen
   std::vector<std::vector<std::uint64_t>> all;
   for (const PointComponent& component : components)
   {
-    std::vector<std::uint64_t> points = component.points;
+    std::vector<std::uint64_t> points = codesOf(component.words);
     for (const PointCube& cube : component.cubes)
     {
       for (std::uint64_t code = cube.corner; code < cube.end(); ++code)
@@ -120,7 +120,7 @@ TEST(PointComponents, AreThoseOfAllPairs)
     {
       for (const std::size_t least : { 1, 5 })
       {
-        const auto components = pointsOf(pointComponents(points, {}, steps, least));
+        const auto components = pointsOf(pointComponents(wordsOf(points), {}, steps, least));
         EXPECT_TRUE(components == expectedComponents(points, steps, least)) << trial << ", " << int(steps) << " steps, " << least;
         found += components.size();
         for (const auto& component : components)
@@ -153,8 +153,8 @@ TEST(PointComponents, OfCubesAreThoseOfTheirPoints)
     {
       for (const std::size_t least : { 1, 100 })
       {
-        const auto components = pointsOf(pointComponents(points, cubes, steps, least));
-        EXPECT_TRUE(components == pointsOf(pointComponents(all, {}, steps, least))) << trial << ", " << int(steps) << " steps, " << least;
+        const auto components = pointsOf(pointComponents(wordsOf(points), cubes, steps, least));
+        EXPECT_TRUE(components == pointsOf(pointComponents(wordsOf(all), {}, steps, least))) << trial << ", " << int(steps) << " steps, " << least;
         found += components.size();
       }
     }
@@ -165,6 +165,6 @@ TEST(PointComponents, OfCubesAreThoseOfTheirPoints)
 TEST(PointComponents, OfNoPointsThereAreNone)
 {
   EXPECT_TRUE(pointComponents({}, {}, Steps::Corners, 1).empty());
-  EXPECT_TRUE(pointComponents({ 9 }, {}, Steps::Corners, 2).empty());
-  EXPECT_EQ(pointsOf(pointComponents({ 9 }, {}, Steps::Corners, 1)), std::vector<std::vector<std::uint64_t>>{ { 9 } });
+  EXPECT_TRUE(pointComponents({ { 0, 1 << 9 } }, {}, Steps::Corners, 2).empty());
+  EXPECT_EQ(pointsOf(pointComponents({ { 0, 1 << 9 } }, {}, Steps::Corners, 1)), std::vector<std::vector<std::uint64_t>>{ { 9 } });
 }

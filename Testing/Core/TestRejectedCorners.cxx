@@ -94,22 +94,24 @@ TEST(RejectedCorners, AreThoseThatOneViewAloneCallsBackground)
       for (const Octree* one : { &octree, static_cast<const Octree*>(&another) })
       {
         KnownVotes::Votes votes;
-        const auto [found, cubes] = findRejected(*one, views, shell, 0.1 * (kind % 2), votes, execution);
+        const auto [words, cubes] = findRejected(*one, views, shell, 0.1 * (kind % 2), votes, execution);
         EXPECT_EQ(votes != nullptr, one == &octree);
         std::map<std::uint64_t, int> byCorner;
-        std::size_t within = 0;
-        for (std::size_t n = 0; n < found.size(); ++n)
+        std::size_t found = 0;
+        for (std::size_t n = 0; n < words.size(); ++n)
         {
-          byCorner.emplace(found[n].corner, found[n].view);
-          EXPECT_TRUE(n == 0 || found[n - 1].view < found[n].view ||
-            (found[n - 1].view == found[n].view && found[n - 1].corner < found[n].corner));
+          const auto add = [&, view = words[n].view](std::uint64_t corner) { EXPECT_TRUE(byCorner.emplace(corner, view).second); };
+          forCodes(words[n].corners, add);
+          found += std::size_t(countBits(words[n].corners.bits));
+          EXPECT_TRUE(n == 0 || words[n - 1].view < words[n].view ||
+            (words[n - 1].view == words[n].view && words[n - 1].corners.block < words[n].corners.block));
         }
         for (const RejectedCube& cube : cubes)
         {
-          within += addWithin(cube, byCorner);
+          found += addWithin(cube, byCorner);
         }
         EXPECT_EQ(byCorner, expected) << "noise " << kind << ", policy " << int(policy);
-        EXPECT_EQ(found.size() + within, expected.size());
+        EXPECT_EQ(found, expected.size());
       }
     }
   }
@@ -127,8 +129,13 @@ TEST(RejectedCorners, GrowLikeTheSurfaceOfWhatIsRejected)
     const CornerShell shell = makeCornerShell(leafCells(octree, OctantState::Intersection), execution);
     KnownVotes::Votes votes;
     const RejectedCorners found = findRejected(octree, LatticeViews(prepared, octree.lattice), shell, 0.1, votes, execution);
-    kept.push_back(double(found.corners.size() + found.cubes.size()));
-    all.push_back(double(found.corners.size()));
+    std::uint64_t corners = 0;
+    for (const RejectedWord& word : found.words)
+    {
+      corners += std::uint64_t(countBits(word.corners.bits));
+    }
+    kept.push_back(double(found.words.size() + found.cubes.size()));
+    all.push_back(double(corners));
     for (const RejectedCube& one : found.cubes)
     {
       EXPECT_EQ(one.view, 0);

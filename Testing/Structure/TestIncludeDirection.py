@@ -86,6 +86,8 @@ class TestCheck(unittest.TestCase):
                 ("Filters/Core/Mesh.h", "<opencv2/core.hpp>", "OpenCV"),
                 ("Filters/Core/Mesh.h", "<fstream>", "files"),
                 ("Filters/Core/Mesh.h", "<filesystem>", "files"),
+                ("Filters/Core/Mesh.h", "<sys/mman.h>", "the system"),
+                ("Filters/Core/LargePages.cxx", "<fstream>", "files"),
                 ("Filters/Capture/Regions.h", "<vtkImageData.h>", "VTK"),
                 ("Filters/Modeling/vtkSilhouetteThing.cxx", "<opencv2/core.hpp>", "OpenCV"),
                 ("Filters/Modeling/vtkSilhouetteThing.cxx", "<pugixml.hpp>", "the camera files' libraries"),
@@ -96,6 +98,10 @@ class TestCheck(unittest.TestCase):
             with self.subTest(path=path, header=header):
                 self.setUp()
                 self.expect(path, f"#include {header}\n", f"includes {header} ({kind})")
+
+    def test_one_file_of_the_core_may_ask_the_system(self):
+        self.write("Filters/Core/LargePages.cxx", "#include <sys/mman.h>\n")
+        self.assertEqual(violations(self.tree), [])
 
     def test_unknown_headers(self):
         self.expect("Filters/Core/Mesh.h", "  #  include <boost/any.hpp>\n", "neither ours nor known")
