@@ -1,18 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoxTree.h"
 
+#include "LargePages.h"
+
 namespace silhouette
 {
 
-/** A part of the tree over consecutive slots: split further, or built by itself with numbers of its own. */
+/** A part of the tree: that of consecutive slots. Where its nodes and leaves are is known from their numbers, so that all parts can be built at the same time. */
 struct BoxTree::Part
 {
-  std::int32_t first, last;
-  Node node{};
-  std::size_t left = 0, right = 0; ///< parts, where it is split
-  std::vector<Node> nodes{};
-  std::vector<std::int32_t> leaves{};
+  std::int32_t first = 0, last = 0; ///< slots
+  std::size_t node = 0;             ///< its own, after which come those of its left half, then those of its right one
+  std::size_t leaf = 0;             ///< its first
 };
+
+/** Number of nodes of the tree over so many slots. */
+std::size_t BoxTree::nodesOf(std::int32_t slots)
+{
+  // Halves differ by one at most, and so do their halves: of each level two numbers, for `slots` >> level and for one more.
+  int level = 0;
+  while (slots >> level > LeafSize)
+  {
+    ++level;
+  }
+  const auto atLeaves = [](std::int32_t n) -> std::size_t { return n <= LeafSize ? 1 : 3; };
+  std::size_t nodes = atLeaves(slots >> level), ofOneMore = atLeaves((slots >> level) + 1);
+  while (level > 0)
+  {
+    --level;
+    const std::size_t mixed = 1 + nodes + ofOneMore;
+    const bool isOdd = (slots >> level) % 2 != 0;
+    ofOneMore = isOdd ? 1 + 2 * ofOneMore : mixed;
+    nodes = isOdd ? mixed : 1 + 2 * nodes;
+  }
+  return nodes;
+}
 
 BoxTree::BoxTree(const std::vector<Box>& boxes)
 {
@@ -31,7 +53,7 @@ BoxTree::BoxTree(std::size_t count, const std::function<Box(std::size_t)>& boxOf
   {
     return;
   }
-  this->Slots.resize(count);
+  this->Slots = largeVector<Slot>(count);
   execution.forRanges(count, 4096,
     [&](std::size_t first, std::size_t last)
     {
@@ -40,76 +62,37 @@ BoxTree::BoxTree(std::size_t count, const std::function<Box(std::size_t)>& boxOf
         this->Slots[i] = { boxOf(i), std::int32_t(i) };
       }
     });
-  std::vector<Part> parts = this->split(execution);
-  std::size_t nodes = 0;
-  for (const Part& part : parts)
-  {
-    nodes += part.nodes.empty() ? 1 : part.nodes.size();
-  }
-  this->Nodes.reserve(nodes);
-  this->append(parts, 0);
-}
-
-/** Split from the top, all parts of a level side by side, until there are enough of them; then build each. */
-std::vector<BoxTree::Part> BoxTree::split(Execution& execution)
-{
+  const std::size_t nodes = nodesOf(std::int32_t(count));
+  this->Nodes = largeVector<Node>(nodes);
+  resizeLarge(this->Leaves, (nodes + 1) / 2);
+  // From the top, all parts of a level side by side, until there are enough of them; then each by itself.
   constexpr std::size_t Enough = 64;
-  std::vector<Part> parts{ Part{ 0, std::int32_t(this->Slots.size()) } };
-  std::size_t level = 0; // the first part of the last level
-  while (parts.size() - level < Enough && parts[level].last - parts[level].first > std::int32_t(Enough) * LeafSize)
+  std::vector<Part> parts{ Part{ 0, std::int32_t(count) } };
+  while (parts.size() < Enough && parts[0].last - parts[0].first > std::int32_t(Enough) * LeafSize)
   {
-    const std::size_t end = parts.size();
-    execution.forRanges(end - level, 1,
+    std::vector<std::array<Part, 2>> halves(parts.size());
+    execution.forRanges(parts.size(), 1,
       [&](std::size_t first, std::size_t last)
       {
-        for (std::size_t p = level + first; p < level + last; ++p)
+        for (std::size_t p = first; p < last; ++p)
         {
-          parts[p].left = std::size_t(this->divide(parts[p].first, parts[p].last, parts[p].node)); // where, so far
+          this->divide(parts[p], halves[p]);
         }
       });
-    for (; level < end; ++level)
+    parts.clear();
+    for (const std::array<Part, 2>& two : halves)
     {
-      const auto middle = std::int32_t(parts[level].left);
-      parts[level].left = parts.size();
-      parts[level].right = parts.size() + 1;
-      parts.push_back(Part{ parts[level].first, middle });
-      parts.push_back(Part{ middle, parts[level].last });
+      parts.insert(parts.end(), two.begin(), two.end());
     }
   }
-  execution.forRanges(parts.size() - level, 1,
+  execution.forRanges(parts.size(), 1,
     [&](std::size_t first, std::size_t last)
     {
-      for (std::size_t p = level + first; p < level + last; ++p)
+      for (std::size_t p = first; p < last; ++p)
       {
-        this->build(parts[p].first, parts[p].last, parts[p].nodes, parts[p].leaves);
+        this->build(parts[p]);
       }
     });
-  return parts;
-}
-
-/** Append a part's nodes, itself first, then those of its left half. */
-void BoxTree::append(std::vector<Part>& parts, std::size_t p)
-{
-  Part& part = parts[p];
-  const auto index = std::int32_t(this->Nodes.size());
-  if (part.nodes.empty())
-  {
-    this->Nodes.push_back(part.node);
-    this->append(parts, part.left);
-    this->Nodes[std::size_t(index)].right = std::int32_t(this->Nodes.size());
-    this->append(parts, part.right);
-    return;
-  }
-  for (Node& node : part.nodes)
-  {
-    node.right += node.right != 0 ? index : 0;
-    this->Nodes.push_back(node);
-  }
-  for (const std::int32_t leaf : part.leaves)
-  {
-    this->Leaves.push_back(index + leaf);
-  }
-  part = Part{}; // its memory is given back
 }
 
 BoxTree triangleTree(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles, Execution& execution)
@@ -117,9 +100,11 @@ BoxTree triangleTree(const std::vector<Eigen::Vector3d>& points, const std::vect
   return BoxTree(triangles.size(), [&](std::size_t n) { return triangleBox(points, triangles[n]); }, execution);
 }
 
-/** Make the node of some slots; where they are too many for a leaf, divide them in two halves and return where the second begins, else -1. */
-std::int32_t BoxTree::divide(std::int32_t first, std::int32_t last, Node& node)
+/** Make the node of a part; where its slots are too many for a leaf, divide them, else false. */
+bool BoxTree::divide(const Part& part, std::array<Part, 2>& halves)
 {
+  const auto [first, last, index, leaf] = part;
+  Node& node = this->Nodes[index];
   node = { Box(), first, last, 0 };
   Box centres;
   for (std::int32_t s = first; s < last; ++s)
@@ -129,7 +114,8 @@ std::int32_t BoxTree::divide(std::int32_t first, std::int32_t last, Node& node)
   }
   if (last - first <= LeafSize)
   {
-    return -1;
+    this->Leaves[leaf] = std::int32_t(index);
+    return false;
   }
   int axis = 0;
   centres.sizes().maxCoeff(&axis);
@@ -141,23 +127,20 @@ std::int32_t BoxTree::divide(std::int32_t first, std::int32_t last, Node& node)
       const double cb = b.box.min()[axis] + b.box.max()[axis];
       return ca != cb ? ca < cb : a.item < b.item;
     });
-  return middle;
+  const std::size_t left = nodesOf(middle - first);
+  node.right = std::int32_t(index + 1 + left);
+  halves = { Part{ first, middle, index + 1, leaf }, Part{ middle, last, index + 1 + left, leaf + (left + 1) / 2 } };
+  return true;
 }
 
-void BoxTree::build(std::int32_t first, std::int32_t last, std::vector<Node>& nodes, std::vector<std::int32_t>& leaves)
+void BoxTree::build(const Part& part)
 {
-  const std::size_t index = nodes.size();
-  Node node;
-  const std::int32_t middle = this->divide(first, last, node);
-  nodes.push_back(node);
-  if (middle < 0)
+  std::array<Part, 2> halves;
+  if (this->divide(part, halves))
   {
-    leaves.push_back(std::int32_t(index));
-    return;
+    this->build(halves[0]);
+    this->build(halves[1]);
   }
-  this->build(first, middle, nodes, leaves);
-  nodes[index].right = std::int32_t(nodes.size());
-  this->build(middle, last, nodes, leaves);
 }
 
 } // namespace silhouette

@@ -111,10 +111,9 @@ private:
 
   struct Part;
 
-  std::vector<Part> split(Execution& execution);
-  void append(std::vector<Part>& parts, std::size_t p);
-  std::int32_t divide(std::int32_t first, std::int32_t last, Node& node);
-  void build(std::int32_t first, std::int32_t last, std::vector<Node>& nodes, std::vector<std::int32_t>& leaves);
+  static std::size_t nodesOf(std::int32_t slots);
+  bool divide(const Part& part, std::array<Part, 2>& halves);
+  void build(const Part& part);
 
   /** Visit the leaves that overlap the box and hold slots from `from` on. */
   template <typename VisitLeaf>

@@ -184,6 +184,24 @@ bool projectOctant(
   return true;
 }
 
+bool isOctantHeld(const LatticeProjection& projection, const LatticePoint& lowest, std::int32_t size, double reach, const CoverCount& count)
+{
+  constexpr double Guard = 1.0; // pixels: what is in the octant is boxed as if the projection were linear there
+  Vector2 p[8];
+  if (!projectOctant(projection, lowest, size, p))
+  {
+    return false;
+  }
+  Vector2 least = p[0], greatest = p[0];
+  for (const Vector2& corner : p)
+  {
+    least = least.cwiseMin(corner);
+    greatest = greatest.cwiseMax(corner);
+  }
+  const double wider = reach + Guard;
+  return count.isBoxHeld(least[0] - wider, greatest[0] + wider, least[1] - wider, greatest[1] + wider);
+}
+
 void addLeaves(const LatticeProjection& projection, double reach, OctantBlock& leaves, CoverCount& count)
 {
   BlockPixels pixels;

@@ -57,6 +57,15 @@ public:
     return true;
   }
 
+  /** The same of all pixels of the window whose squares a closed box of the image touches. */
+  bool isBoxHeld(double leastX, double greatestX, double leastY, double greatestY) const
+  {
+    const double left = leastX - this->TheWindow.left, right = greatestX - this->TheWindow.left;
+    const double top = leastY - this->TheWindow.top, bottom = greatestY - this->TheWindow.top;
+    return !(right >= -0.5 && bottom >= -0.5 && left < this->TheWindow.width() && top < this->TheWindow.height()) ||
+      this->isHeld(first(left), end(right, this->TheWindow.width()), first(top), end(bottom, this->TheWindow.height()));
+  }
+
   /** All pixels of the image whose squares the closed box touches; it may reach outside. */
   void add(double leastX, double greatestX, double leastY, double greatestY)
   {
@@ -140,6 +149,9 @@ void addLeaves(const LatticeProjection& projection, double reach, OctantBlock& l
  * Add the projections of a block of octants of a size, in last-generation octants, and empty the block; pixels count by their middles' rows. Octants that lie behind others are told by these and left out, which leaves a pixel that is met held by some. Cost: the octants, and the rows of those that show.
  */
 void addOctants(const LatticeProjection& projection, std::int32_t size, OctantBlock& octants, CoverCount& count);
+
+/** Are all pixels of the window that an octant's projection, widened by `reach` pixels, may touch known to be held already? Then nothing in it need be added. */
+bool isOctantHeld(const LatticeProjection& projection, const LatticePoint& lowest, std::int32_t size, double reach, const CoverCount& count);
 
 /** The projected corners of an octant; false where one is not in front of the camera. */
 bool projectOctant(const LatticeProjection& projection, const LatticePoint& lowest, std::int32_t size, Vector2 (&corners)[8]);

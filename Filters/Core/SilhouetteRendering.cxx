@@ -2,6 +2,7 @@
 #include "SilhouetteRendering.h"
 
 #include "Error.h"
+#include "LargePages.h"
 #include "MeshCheck.h"
 #include "Vectorised.h"
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -43,19 +45,27 @@ Vector3 projectPoint(const Projection& P, const Vector3& p)
   return h;
 }
 
-void projectPoints(const Mesh& mesh, const Projection& projection, std::vector<Vector3>& result)
+/** The least and the greatest w of some points. Throws InvalidInput for one that does not project to finite numbers. */
+std::array<double, 2> depthsOf(const std::vector<Vector3>& points, const Projection& projection)
 {
-  result.clear();
-  result.reserve(mesh.points.size());
-  for (const Vector3& p : mesh.points)
+  std::array<double, 2> depths{ std::numeric_limits<double>::infinity(), 0.0 };
+  for (std::size_t n = 0; n < points.size(); ++n)
   {
-    result.push_back(projectPoint(projection, p));
-    if (!result.back().allFinite())
+    const Vector3 p = projectPoint(projection, points[n]);
+    if (!p.allFinite())
     {
-      throw InvalidInput(
-        "point " + std::to_string(result.size() - 1) + " does not project to finite numbers");
+      throw InvalidInput("point " + std::to_string(n) + " does not project to finite numbers");
     }
+    depths = { std::min(depths[0], p[2]), std::max(depths[1], p[2]) };
   }
+  return depths;
+}
+
+/** Where a point in front of the camera falls. */
+inline Vector2 pixelOf(const Projection& projection, const Vector3& point)
+{
+  const Vector3 p = projectPoint(projection, point);
+  return { p[0] / p[2], p[1] / p[2] };
 }
 
 /**
@@ -191,17 +201,13 @@ SILHOUETTE_VECTORISED void fill(const Polygon& polygon, const ImageBox& box, Bin
   }
 }
 
-/** Where homogeneous points fall, and the box of each. */
-SILHOUETTE_VECTORISED void placePoints(
-  const std::vector<Vector3>& points, int width, int height, std::vector<Vector2>& pixels, std::vector<ImageBox>& boxes)
+/** The box of each of some points in front of the camera. */
+SILHOUETTE_VECTORISED void boxPoints(const std::vector<Vector3>& points, const Projection& projection, int width, int height, ImageBox* boxes)
 {
-  pixels.resize(points.size());
-  boxes.resize(points.size());
   for (std::size_t n = 0; n < points.size(); ++n)
   {
-    const Vector3& p = points[n];
-    pixels[n] = { p[0] / p[2], p[1] / p[2] };
-    boxes[n] = boxOf(&pixels[n], 1, width, height);
+    const Vector2 pixel = pixelOf(projection, points[n]);
+    boxes[n] = boxOf(&pixel, 1, width, height);
   }
 }
 
@@ -218,42 +224,43 @@ const BinaryImage& SilhouetteRenderer::render(const Mesh& mesh, const Projection
   this->Image.height = height;
   this->Image.pixels.assign(std::size_t(width) * height, 0);
 
-  projectPoints(mesh, projection, this->Points);
-  double greatest = 0.0;
-  for (const Vector3& p : this->Points)
-  {
-    greatest = std::max(greatest, p[2]);
-  }
+  const auto [least, greatest] = depthsOf(mesh.points, projection);
   const double nearPlane = NearShare * greatest;
   if (!(nearPlane > 0.0))
   {
     return this->Image; // everything is behind the camera
   }
-  const bool allSeen = std::all_of(this->Points.begin(), this->Points.end(), [nearPlane](const Vector3& p) { return p[2] > nearPlane; });
-  allSeen ? this->fillSeen(mesh.triangles) : this->fillCut(mesh.triangles, nearPlane);
+  least > nearPlane ? this->fillSeen(mesh, projection) : this->fillCut(mesh, projection, nearPlane);
   return this->Image;
 }
 
-void SilhouetteRenderer::fillSeen(const std::vector<Triangle>& triangles)
+void SilhouetteRenderer::fillSeen(const Mesh& mesh, const Projection& projection)
 {
-  placePoints(this->Points, this->Image.width, this->Image.height, this->Pixels, this->Boxes);
-  for (const Triangle& t : triangles)
+  if (this->Boxes.size() < mesh.points.size())
+  {
+    this->Boxes = largeVector<ImageBox>(mesh.points.size());
+  }
+  boxPoints(mesh.points, projection, this->Image.width, this->Image.height, this->Boxes.data());
+  const auto pixel = [&](std::int32_t point) { return pixelOf(projection, mesh.points[point]); };
+  for (const Triangle& t : mesh.triangles)
   {
     ImageBox box = this->Boxes[t[0]];
     box.include(this->Boxes[t[1]]);
     box.include(this->Boxes[t[2]]);
     if (!isFilled(this->Image, box))
     {
-      fill({ { this->Pixels[t[0]], this->Pixels[t[1]], this->Pixels[t[2]] }, 3 }, box, this->Image);
+      fill({ { pixel(t[0]), pixel(t[1]), pixel(t[2]) }, 3 }, box, this->Image);
     }
   }
 }
 
-void SilhouetteRenderer::fillCut(const std::vector<Triangle>& triangles, double nearPlane)
+void SilhouetteRenderer::fillCut(const Mesh& mesh, const Projection& projection, double nearPlane)
 {
-  for (const Triangle& t : triangles)
+  std::vector<Vector3> points; // homogeneous
+  std::transform(mesh.points.begin(), mesh.points.end(), std::back_inserter(points), [&](const Vector3& p) { return projectPoint(projection, p); });
+  for (const Triangle& t : mesh.triangles)
   {
-    const Polygon polygon = cutByNearPlane(this->Points, t, nearPlane);
+    const Polygon polygon = cutByNearPlane(points, t, nearPlane);
     const ImageBox box = boxOf(polygon.corner.data(), polygon.size, this->Image.width, this->Image.height);
     if (!isFilled(this->Image, box))
     {

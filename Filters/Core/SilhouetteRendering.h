@@ -47,13 +47,11 @@ public:
   const BinaryImage& render(const Mesh& mesh, const Projection& projection, int width, int height);
 
 private:
-  void fillSeen(const std::vector<Triangle>& triangles);
-  void fillCut(const std::vector<Triangle>& triangles, double nearPlane);
+  void fillSeen(const Mesh& mesh, const Projection& projection);
+  void fillCut(const Mesh& mesh, const Projection& projection, double nearPlane);
 
   BinaryImage Image;
-  std::vector<Vector3> Points;  ///< homogeneous
-  std::vector<Vector2> Pixels;  ///< of the same points where all are seen
-  std::vector<ImageBox> Boxes;  ///< of each of these
+  std::vector<ImageBox> Boxes; ///< of the points where all are seen; perhaps more of them than there are points
 };
 
 /** One silhouette. */

@@ -17,6 +17,7 @@ namespace silhouette
 namespace
 {
 
+constexpr int BlockGenerations = 3;  ///< survivors are passed over by octants of so many generations before, where all of their pixels are covered
 constexpr double LeastContact = 0.5; ///< octants times lengthScale(): shorter ends and sides of a region are noise, such as a hole beside the contour
 
 /** Is some of the pixels object and held by nothing? */
@@ -145,20 +146,37 @@ private:
     for (int g = this->TheOctree->treeGeneration; g <= depth; ++g)
     {
       const Generation& generation = this->TheOctree->generations[g];
-      const int shift = depth - g;
+      const int shift = depth - g, ancestor = std::min(g, BlockGenerations);
+      const auto add = [&] { g == depth ? addLeaves(projection, reach, this->Octants, this->Count) : addOctants(projection, 1 << shift, this->Octants, this->Count); };
+      std::uint64_t block = ~std::uint64_t(0); // that octant of `ancestor` generations before which the n-th lies in
       for (std::size_t n = 0; n < generation.size(); ++n)
       {
         const OctantState state = generation.state[n];
-        if (g == depth ? state != OctantState::Background : state == OctantState::Inside)
+        if (g == depth ? state == OctantState::Background : state != OctantState::Inside)
         {
-          const LatticePoint at = fromMorton(generation.code[n]);
-          this->Octants.add({ at.i << shift, at.j << shift, at.k << shift });
+          continue;
         }
-        if (this->Octants.count == OctantBlock::Most || n + 1 == generation.size())
+        const std::uint64_t own = generation.code[n] >> 3 * ancestor;
+        if (own != block)
         {
-          g == depth ? addLeaves(projection, reach, this->Octants, this->Count) : addOctants(projection, 1 << shift, this->Octants, this->Count);
+          block = own;
+          const LatticePoint at = fromMorton(block);
+          const int size = shift + ancestor;
+          if (isOctantHeld(projection, { at.i << size, at.j << size, at.k << size }, 1 << size, g == depth ? reach : 0.0, this->Count))
+          {
+            const auto next = std::lower_bound(generation.code.begin() + std::ptrdiff_t(n), generation.code.end(), (block + 1) << 3 * ancestor);
+            n = std::size_t(next - generation.code.begin()) - 1;
+            continue;
+          }
+        }
+        const LatticePoint at = fromMorton(generation.code[n]);
+        this->Octants.add({ at.i << shift, at.j << shift, at.k << shift });
+        if (this->Octants.count == OctantBlock::Most)
+        {
+          add();
         }
       }
+      add();
     }
   }
 
