@@ -235,3 +235,46 @@ TEST(OctantCover, NothingBehindTheCamera)
   Vector2 corners[8];
   EXPECT_FALSE(projectOctant(behind, { 30, 30, 30 }, 1, corners));
 }
+
+/** Where an octant is held, its leaves bare nothing that was not: all pixels that they would add are held already. */
+TEST(OctantCover, WhatLiesInAHeldOctantAddsNothing)
+{
+  std::size_t held = 0, free = 0;
+  for (int view = 0; view < 7; ++view)
+  {
+    const LatticeProjection projection = viewOf(view);
+    for (const double reach : { 0.0, 1.7 })
+    {
+      CoverCount count = countOf({ 30, 170, 20, 180 });
+      OctantBlock block;
+      for (const LatticePoint& octant : someOctants(5, 16, 300 + view))
+      {
+        block.add(octant);
+      }
+      addOctants(projection, 16, block, count);
+      std::vector<std::int32_t> before = heldOf(count);
+      for (const LatticePoint& octant : someOctants(400, 4, 400 + view))
+      {
+        const bool isHeld = isOctantHeld(projection, octant, 4, reach, count);
+        (isHeld ? held : free) += 1;
+        if (!isHeld)
+        {
+          continue;
+        }
+        for (int n = 0; n < 64; ++n)
+        {
+          block.add({ octant.i + n % 4, octant.j + n / 4 % 4, octant.k + n / 16 });
+        }
+        CoverCount own = count;
+        addLeaves(projection, reach, block, own);
+        const auto after = heldOf(own);
+        for (std::size_t n = 0; n < after.size(); ++n)
+        {
+          ASSERT_EQ(after[n] > 0, before[n] > 0) << view << ", pixel " << n;
+        }
+      }
+    }
+  }
+  EXPECT_GT(held, 200u);
+  EXPECT_GT(free, 200u);
+}
