@@ -10,6 +10,7 @@
 #include "LargePages.h"
 #include "RadixSort.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -25,17 +26,23 @@ struct BlockWord
   std::uint64_t bits;
 };
 
-/** The words of a list of codes, ascending. */
+/** Append what is of a block, none of whose successors is among the words. */
+inline void append(std::vector<BlockWord>& words, const BlockWord& more)
+{
+  if (words.empty() || words.back().block != more.block)
+  {
+    words.push_back({ more.block, 0 });
+  }
+  words.back().bits |= more.bits;
+}
+
+/** The words of a list of codes, ascending, of which there are few; else blockWords(). */
 inline std::vector<BlockWord> wordsOf(const std::vector<std::uint64_t>& codes)
 {
   std::vector<BlockWord> words;
   for (const std::uint64_t code : codes)
   {
-    if (words.empty() || words.back().block != code >> 6)
-    {
-      words.push_back({ code >> 6, 0 });
-    }
-    words.back().bits |= std::uint64_t(1) << (code & 63);
+    append(words, { code >> 6, std::uint64_t(1) << (code & 63) });
   }
   return words;
 }
@@ -60,29 +67,21 @@ inline std::vector<std::uint64_t> codesOf(const std::vector<BlockWord>& words)
   return codes;
 }
 
-/** The words of two lists, ascending both, of a block one. */
+/** The words of two lists, which are ascending but may have several of a block; of a block one. */
 inline std::vector<BlockWord> unitedWords(const std::vector<BlockWord>& a, const std::vector<BlockWord>& b)
 {
   std::vector<BlockWord> both;
   both.reserve(a.size() + b.size());
-  const auto add = [&](const BlockWord& word)
-  {
-    if (both.empty() || both.back().block != word.block)
-    {
-      both.push_back({ word.block, 0 });
-    }
-    both.back().bits |= word.bits;
-  };
   auto other = b.begin();
   for (const BlockWord& word : a)
   {
     for (; other != b.end() && other->block < word.block; ++other)
     {
-      add(*other);
+      append(both, *other);
     }
-    add(word);
+    append(both, word);
   }
-  std::for_each(other, b.end(), add);
+  std::for_each(other, b.end(), [&](const BlockWord& word) { append(both, word); });
   return both;
 }
 

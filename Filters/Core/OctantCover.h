@@ -60,21 +60,15 @@ public:
   /** The same of all pixels of the window whose squares a closed box of the image touches. */
   bool isBoxHeld(double leastX, double greatestX, double leastY, double greatestY) const
   {
-    const double left = leastX - this->TheWindow.left, right = greatestX - this->TheWindow.left;
-    const double top = leastY - this->TheWindow.top, bottom = greatestY - this->TheWindow.top;
-    return !(right >= -0.5 && bottom >= -0.5 && left < this->TheWindow.width() && top < this->TheWindow.height()) ||
-      this->isHeld(first(left), end(right, this->TheWindow.width()), first(top), end(bottom, this->TheWindow.height()));
+    bool isHeld = true; // of none
+    this->withPixels(leastX, greatestX, leastY, greatestY, [&](auto... pixels) { isHeld = this->isHeld(pixels...); });
+    return isHeld;
   }
 
   /** All pixels of the image whose squares the closed box touches; it may reach outside. */
   void add(double leastX, double greatestX, double leastY, double greatestY)
   {
-    const double left = leastX - this->TheWindow.left, right = greatestX - this->TheWindow.left;
-    const double top = leastY - this->TheWindow.top, bottom = greatestY - this->TheWindow.top;
-    if (right >= -0.5 && bottom >= -0.5 && left < this->TheWindow.width() && top < this->TheWindow.height())
-    {
-      this->addPixels(first(left), end(right, this->TheWindow.width()), first(top), end(bottom, this->TheWindow.height()));
-    }
+    this->withPixels(leastX, greatestX, leastY, greatestY, [&](auto... pixels) { this->addPixels(pixels...); });
   }
 
   /** Some columns and rows of the window, from a first one to before a last one; none where these are equal. */
@@ -109,6 +103,17 @@ public:
   static constexpr int TileSize = 8;
 
 private:
+  /** Call `work` with the columns and rows of the window, as addPixels() takes them, that a box touches, if it touches any. */
+  template <typename Work> void withPixels(double leastX, double greatestX, double leastY, double greatestY, const Work& work) const
+  {
+    const double left = leastX - this->TheWindow.left, right = greatestX - this->TheWindow.left;
+    const double top = leastY - this->TheWindow.top, bottom = greatestY - this->TheWindow.top;
+    if (right >= -0.5 && bottom >= -0.5 && left < this->TheWindow.width() && top < this->TheWindow.height())
+    {
+      work(first(left), end(right, this->TheWindow.width()), first(top), end(bottom, this->TheWindow.height()));
+    }
+  }
+
   static std::size_t first(double least) { return std::size_t(std::max(0.0, std::floor(least + 0.5))); }
   static std::size_t end(double greatest, int size)
   {

@@ -139,14 +139,9 @@ std::vector<PointComponent> pointComponents(const std::vector<BlockWord>& words,
   {
     for (std::uint32_t part = all.first[block]; part < all.first[block + 1]; ++part)
     {
-      PointComponent* component = componentOf(part);
-      if (component != nullptr && (component->words.empty() || component->words.back().block != all.blocks[block]))
+      if (PointComponent* component = componentOf(part))
       {
-        component->words.push_back({ all.blocks[block], 0 });
-      }
-      if (component != nullptr)
-      {
-        component->words.back().bits |= all.parts[part];
+        append(component->words, { all.blocks[block], all.parts[part] });
       }
     }
   }

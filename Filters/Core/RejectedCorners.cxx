@@ -159,11 +159,7 @@ std::vector<BlockWord> cornersOf(const std::vector<RejectedWord>& words)
   std::vector<BlockWord> corners;
   for (const RejectedWord& word : words)
   {
-    if (corners.empty() || corners.back().block != word.corners.block)
-    {
-      corners.push_back({ word.corners.block, 0 });
-    }
-    corners.back().bits |= word.corners.bits;
+    append(corners, word.corners);
   }
   return corners;
 }
@@ -383,7 +379,7 @@ RejectedCorners findRejected(const Octree& octree, const LatticeViews& views, co
                              KnownVotes::Votes& votes, Execution& execution)
 {
   const std::vector<std::uint64_t> corners = onceDisputed(octree, views, shell, votes, execution);
-  const std::vector<BlockWord> first = blockWords(corners, blockStarts(corners, execution), execution);
+  const std::vector<BlockWord> first = PointBlocks(corners, execution).words();
   return Search(views, depth, execution).from(shell, votes ? rejectedOnce(octree, views, first, execution) : rejectedOf(views, first, execution));
 }
 

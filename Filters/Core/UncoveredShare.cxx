@@ -142,42 +142,48 @@ private:
 
   void addSurvivors(const LatticeProjection& projection, double reach)
   {
-    const int depth = this->TheOctree->lattice.depth;
-    for (int g = this->TheOctree->treeGeneration; g <= depth; ++g)
+    for (int g = this->TheOctree->treeGeneration; g <= this->TheOctree->lattice.depth; ++g)
     {
-      const Generation& generation = this->TheOctree->generations[g];
-      const int shift = depth - g, ancestor = std::min(g, BlockGenerations);
-      const auto add = [&] { g == depth ? addLeaves(projection, reach, this->Octants, this->Count) : addOctants(projection, 1 << shift, this->Octants, this->Count); };
-      std::uint64_t block = ~std::uint64_t(0); // that octant of `ancestor` generations before which the n-th lies in
-      for (std::size_t n = 0; n < generation.size(); ++n)
-      {
-        const OctantState state = generation.state[n];
-        if (g == depth ? state == OctantState::Background : state != OctantState::Inside)
-        {
-          continue;
-        }
-        const std::uint64_t own = generation.code[n] >> 3 * ancestor;
-        if (own != block)
-        {
-          block = own;
-          const LatticePoint at = fromMorton(block);
-          const int size = shift + ancestor;
-          if (isOctantHeld(projection, { at.i << size, at.j << size, at.k << size }, 1 << size, g == depth ? reach : 0.0, this->Count))
-          {
-            const auto next = std::lower_bound(generation.code.begin() + std::ptrdiff_t(n), generation.code.end(), (block + 1) << 3 * ancestor);
-            n = std::size_t(next - generation.code.begin()) - 1;
-            continue;
-          }
-        }
-        const LatticePoint at = fromMorton(generation.code[n]);
-        this->Octants.add({ at.i << shift, at.j << shift, at.k << shift });
-        if (this->Octants.count == OctantBlock::Most)
-        {
-          add();
-        }
-      }
-      add();
+      this->addSurvivors(g, projection, reach);
     }
+  }
+
+  /** Those of a generation, but such as lie in an octant, a few generations before, of which all pixels are held. */
+  void addSurvivors(int g, const LatticeProjection& projection, double reach)
+  {
+    const Generation& generation = this->TheOctree->generations[g];
+    const int shift = this->TheOctree->lattice.depth - g, blockGenerations = std::min(g, BlockGenerations);
+    const bool areLeaves = shift == 0;
+    const auto lowestOf = [](std::uint64_t code, int halvings)
+    {
+      const LatticePoint at = fromMorton(code);
+      return LatticePoint{ at.i << halvings, at.j << halvings, at.k << halvings };
+    };
+    const auto flush = [&] { areLeaves ? addLeaves(projection, reach, this->Octants, this->Count) : addOctants(projection, 1 << shift, this->Octants, this->Count); };
+    std::uint64_t block = ~std::uint64_t(0); // of the last survivor
+    for (std::size_t n = 0; n < generation.size(); ++n)
+    {
+      const OctantState state = generation.state[n];
+      if (areLeaves ? state == OctantState::Background : state != OctantState::Inside)
+      {
+        continue;
+      }
+      const std::uint64_t own = generation.code[n] >> 3 * blockGenerations;
+      const int size = shift + blockGenerations;
+      if (own != block && isOctantHeld(projection, lowestOf(own, size), 1 << size, areLeaves ? reach : 0.0, this->Count))
+      {
+        const auto next = std::lower_bound(generation.code.begin() + std::ptrdiff_t(n), generation.code.end(), (own + 1) << 3 * blockGenerations);
+        n = std::size_t(next - generation.code.begin()) - 1;
+        continue;
+      }
+      block = own;
+      this->Octants.add(lowestOf(generation.code[n], shift));
+      if (this->Octants.count == OctantBlock::Most)
+      {
+        flush();
+      }
+    }
+    flush();
   }
 
   const Octree* TheOctree;

@@ -9,6 +9,8 @@
 #include <limits>
 #include <random>
 #include <set>
+#include <utility>
+#include <vector>
 
 using namespace silhouette;
 using namespace silhouette::test;
@@ -47,6 +49,27 @@ TEST(BoxTree, OverlappingEqualsAll)
     }
     tree.overlapping(query, [&](std::int32_t i) { found.insert(i); });
     ASSERT_EQ(found, expected);
+  }
+}
+
+/** Where nodes and leaves are is told by the number of boxes: whatever that is, each box is found once, from the root and among the pairs of the leaves. */
+TEST(BoxTree, HoldsEachBoxOnceForAnyNumberOfThem)
+{
+  for (int count = 1; count <= 200; ++count)
+  {
+    const BoxTree tree(randomBoxes(count, unsigned(count)));
+    std::vector<int> visits(std::size_t(count), 0);
+    tree.overlapping(Box(Eigen::Vector3d::Constant(-1.0), Eigen::Vector3d::Constant(50.0)), [&](std::int32_t i) { ++visits[std::size_t(i)]; });
+    ASSERT_EQ(std::count(visits.begin(), visits.end(), 1), count);
+    const BoxTree same(std::vector<Box>(std::size_t(count), Box(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones())));
+    std::set<std::pair<std::int32_t, std::int32_t>> pairs;
+    std::size_t visited = 0;
+    for (std::size_t leaf = 0; leaf < same.leafCount(); ++leaf)
+    {
+      same.overlappingPairs(leaf, [&](std::int32_t i, std::int32_t j) { pairs.emplace(std::min(i, j), std::max(i, j)), ++visited; });
+    }
+    ASSERT_EQ(pairs.size(), std::size_t(count) * std::size_t(count - 1) / 2) << count;
+    ASSERT_EQ(visited, pairs.size()) << count;
   }
 }
 
